@@ -93,7 +93,7 @@ def changes(commit: str) -> dict[str, list[tuple[str, list[tuple[str, float]]]]]
 
 def loosened(commit: str) -> list[str]:
     """What a commit loosens."""
-    told = []
+    messages = []
     for rest, sides in changes(commit).items():
         taken = [held for side, held in sides if side == "-"]
         added = [held for side, held in sides if side == "+"]
@@ -104,8 +104,8 @@ def loosened(commit: str) -> list[str]:
         for old, new in zip(taken, added, strict=False):
             for (was, before), (now, after) in zip(old, new, strict=True):
                 if after > before:
-                    told.append(f"{commit[:10]}: {was} became {now} in: {rest}")
-    return told
+                    messages.append(f"{commit[:10]}: {was} became {now} in: {rest}")
+    return messages
 
 
 def main() -> int:
@@ -113,15 +113,15 @@ def main() -> int:
     asked = [*sys.argv[1:], "origin/main", "HEAD~1"]
     since = next((name for name in asked if is_commit(name) and git("log", f"{name}..HEAD")), None)
     commits = git("rev-list", "--no-merges", f"{since}..HEAD").split() if since else []
-    told = []
+    messages = []
     for commit in commits:
         if not REASON.search(git("show", "--no-patch", "--format=%B", commit)):
-            told += loosened(commit)
-    for line in told:
+            messages += loosened(commit)
+    for line in messages:
         print(line, file=sys.stderr)
-    if told:
+    if messages:
         print("say why in a line of the commit, `Loosened: ...`, or take it back", file=sys.stderr)
-    return int(bool(told))
+    return int(bool(messages))
 
 
 if __name__ == "__main__":

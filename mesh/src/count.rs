@@ -1,6 +1,6 @@
 //! The sum of a function over a domain, by squares or cubes that are halved until it hardly changes.
 
-use crate::Point;
+use crate::{Point, interrupt};
 
 /// A square of the plane or a cube of space.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +27,7 @@ impl<const D: usize> Cube<D> {
 }
 
 /// The sum of what `value` gives for cubes and, where it gives none, for their parts; infinite above
-/// a limit.
+/// a limit, and up to where it was asked to end.
 pub fn sum_over<const D: usize>(
     cubes: impl IntoIterator<Item = Cube<D>>,
     limit: f64,
@@ -44,6 +44,9 @@ pub fn sum_over<const D: usize>(
             }
             if total > limit {
                 return f64::INFINITY;
+            }
+            if interrupt::is_requested() {
+                return total;
             }
         }
     }

@@ -8,6 +8,9 @@ use crate::CellId;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MeshError {
+    /// It was asked to end ([`crate::interrupt`]).
+    #[error("meshing was asked to end")]
+    Stopped,
     /// A size of the domain is zero, negative or not finite.
     #[error("domain: {what} = {value:e} must be positive and finite")]
     Domain {

@@ -8,6 +8,7 @@ mod box_tree;
 mod check;
 mod count;
 mod error;
+pub mod interrupt;
 mod locate;
 mod mesh;
 mod msh;

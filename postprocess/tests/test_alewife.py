@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +61,39 @@ def test_what_is_wrong_is_told_as_the_program_tells_it() -> None:
         case.set("fluid.viscosity", "thick").run()
     with pytest.raises(TypeError, match="a value is missing"):
         case.set("fluid.viscosity")
+
+
+AT_REST = """
+title = "a disc at rest"
+geometry = "planar"
+fluid = { model = "stokes", viscosity = 1.0 }
+domain.disc.radius = 2.0
+boundary.wall = "no-slip"
+mesh = { size = 0.8, surface = 0.3 }
+time.unsteady = { step = 0.5, end = 0.5 }
+[[body]]
+name = "disc"
+shape.disc.radius = 0.5
+center = [0.0, 0.0]
+motion = "free"
+"""
+
+
+def test_what_a_run_warns_of_is_a_warning_here(tmp_path: Path) -> None:
+    file = tmp_path / "rest.toml"
+    file.write_text(AT_REST)
+    case = alewife.load(file)
+    with pytest.warns(alewife.AlewifeWarning, match="nothing drives this case"):
+        run = case.run()
+    (one,) = run.warnings
+    assert one["message"].startswith("nothing drives") and one["time"] is None, one
+    assert one["count"] == 1
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert case.set("body.0.force", [1.0, 0.0]).run().warnings == []
+    with pytest.warns(alewife.AlewifeWarning, match="column `warnings`: 1$"):
+        table = alewife.sweep(case, {"body.0.torque": [0.0, 1.0]}, out=tmp_path / "s")
+    assert list(table["warnings"]) == [1, 0]
 
 
 def test_a_sweep_is_one_table(tmp_path: Path) -> None:

@@ -187,12 +187,14 @@ def test_colours_mean_the_same_in_all_frames(growing: Run, tmp_path: Path) -> No
 
 
 def test_a_run_with_few_fields_is_shown_by_its_bodies(planar_run: Run, tmp_path: Path) -> None:
-    told: list[str] = []
+    messages: list[str] = []
     out = tmp_path / "film.mp4"
-    n = film.film(planar_run, out, film.Request(size=SMALL, frames=8, trails=False), told.append)
+    n = film.film(
+        planar_run, out, film.Request(size=SMALL, frames=8, trails=False), messages.append
+    )
     assert n == 8
-    assert "2 field files only" in told[0]
-    assert "output.fields" in told[0]
+    assert "2 field files only" in messages[0]
+    assert "output.fields" in messages[0]
     _, shown = frames_of(out)
     middles = [
         np.flatnonzero(colour_at(image, style.SERIES[0]).any(axis=0)).mean() for image in shown

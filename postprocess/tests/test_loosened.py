@@ -38,7 +38,7 @@ class Clone:
         self.git("add", ".")
         self.git("commit", "--quiet", "--message", message)
 
-    def told(self) -> list[str]:
+    def messages(self) -> list[str]:
         """What is said of the last commit."""
         done = subprocess.run(
             [sys.executable, SCRIPT], cwd=self.place, capture_output=True, text=True, check=False
@@ -48,7 +48,7 @@ class Clone:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "told"),
+    ("old", "new", "message"),
     [
         ("1e-6", "2e-6", "1e-6 became 2e-6"),
         ("1.9", "1.8", "1.9 became 1.8"),
@@ -56,22 +56,22 @@ class Clone:
         ("3e-4", "4e-4", "3e-4 became 4e-4"),
     ],
 )
-def test_what_is_loosened_needs_a_reason(tmp_path: Path, old: str, new: str, told: str) -> None:
+def test_what_is_loosened_needs_a_reason(tmp_path: Path, old: str, new: str, message: str) -> None:
     clone = Clone(tmp_path)
     looser = [text.replace(old, new) for text in (TEST, CASE, TABLE)]
     clone.commit("change", *looser)
-    (found,) = clone.told()
-    assert told in found
+    (found,) = clone.messages()
+    assert message in found
     clone.commit("back", TEST, CASE)
-    assert clone.told() == []
+    assert clone.messages() == []
     clone.commit("change\n\nLoosened: the mesh is coarser", *looser)
-    assert clone.told() == []
+    assert clone.messages() == []
 
 
 def test_what_is_no_limit_may_change(tmp_path: Path) -> None:
     clone = Clone(tmp_path)
     tighter = TEST.replace("1e-6", "1e-7").replace("1.9", "1.95").replace("n = 5", "n = 6")
     clone.commit("tighter", tighter, CASE.replace("1e-3", "5e-4").replace("1.0", "3.0"))
-    assert clone.told() == []
+    assert clone.messages() == []
     clone.commit("moved", "// first\n" + "".join(reversed(tighter.splitlines(True))), CASE)
-    assert clone.told() != []
+    assert clone.messages() != []

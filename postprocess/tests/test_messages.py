@@ -80,14 +80,14 @@ def test_bodies_are_told_as_names_and_case_tell_them(made: tuple) -> None:
     run = open_run(out)
     assert (out / "bodies.json").is_file()
     named = from_case(run.case, list(run.bodies), run.shapes)
-    told = run.members
-    assert told.swimmers == named.swimmers
-    assert told.gaits == named.gaits
-    assert told.deforming == named.deforming
-    assert told.headings.keys() == named.headings.keys()
-    for name, heading in told.headings.items():
+    written = run.members
+    assert written.swimmers == named.swimmers
+    assert written.gaits == named.gaits
+    assert written.deforming == named.deforming
+    assert written.headings.keys() == named.headings.keys()
+    for name, heading in written.headings.items():
         np.testing.assert_allclose(heading, named.headings[name], atol=2e-3)
-    pairs = [{frozenset((one.parent, one.child)) for one in of.joints} for of in (told, named)]
+    pairs = [{frozenset((one.parent, one.child)) for one in of.joints} for of in (written, named)]
     assert pairs[0] == pairs[1]
 
 

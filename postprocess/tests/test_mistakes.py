@@ -30,7 +30,7 @@ from alewife_post import (
 CASE = alewife.Case("squirmer-alone")
 
 
-def told(kind: type[Exception], call: Callable[[], object]) -> str:
+def message(kind: type[Exception], call: Callable[[], object]) -> str:
     """What an exception of a kind says."""
     with pytest.raises(kind) as raised:
         call()
@@ -48,14 +48,14 @@ def test_names_a_run_has_not_are_told_with_those_that_are_near(planar_run: Run) 
         (planar_run.shapes, "fish", "no body fish: there is none"),
         (planar_run.series, 3, "no column 3; there are time, disc.speed"),
     ):
-        assert told(KeyError, lambda found=found, name=name: found[name]).startswith(cure)
+        assert message(KeyError, lambda found=found, name=name: found[name]).startswith(cure)
         # They are dictionaries otherwise
         assert name not in found
         assert found.get(name) is None
         assert isinstance(found, dict)
     assert planar_run.quantities["disc.speed"] == planar_run.series["disc.speed"][-1]
     for again in (copy.copy(planar_run.quantities), pickle.loads(pickle.dumps(planar_run.bodies))):
-        assert "list(run." in told(KeyError, lambda again=again: again["fish"])
+        assert "list(run." in message(KeyError, lambda again=again: again["fish"])
 
 
 def test_names_in_pictures_are_told_without_quotes(planar_run: Run) -> None:
@@ -65,19 +65,21 @@ def test_names_in_pictures_are_told_without_quotes(planar_run: Run) -> None:
         lambda: series.series_figure(planar_run, ["disc.sped"]),
     )
     for call in calls:
-        assert told(KeyError, call).startswith("no ")
+        assert message(KeyError, call).startswith("no ")
 
 
 def test_one_name_is_no_list_of_letters(planar_run: Run, tmp_path: Path) -> None:
     assert len(series.series_figure(planar_run, "disc.speed").axes) == 1
-    assert "fish" in told(KeyError, lambda: trajectories.trajectory_figure(planar_run, "fish"))
+    assert "fish" in message(KeyError, lambda: trajectories.trajectory_figure(planar_run, "fish"))
     path = tmp_path / "none"
-    assert told(FileNotFoundError, lambda: comparison_table(str(path))) == f"{path} does not exist"
+    assert (
+        message(FileNotFoundError, lambda: comparison_table(str(path))) == f"{path} does not exist"
+    )
 
 
 def test_choices_are_listed(planar_run: Run) -> None:
     def drawn(**options: str) -> str:
-        return told(ValueError, lambda: figure.picture(planar_run, **options))
+        return message(ValueError, lambda: figure.picture(planar_run, **options))
 
     assert drawn(quantity="velocity") == (
         "no quantity velocity; there are speed, pressure, vorticity, mesh"
@@ -105,8 +107,8 @@ def test_views_are_four_numbers_in_order(
     planar_run: Run, tmp_path: Path, view: object, cure: str
 ) -> None:
     out = tmp_path / "film.mp4"
-    assert cure in told(ValueError, lambda: figure.picture(planar_run, view=view))
-    assert cure in told(ValueError, lambda: film.film(planar_run, out, film.Request(view=view)))
+    assert cure in message(ValueError, lambda: figure.picture(planar_run, view=view))
+    assert cure in message(ValueError, lambda: film.film(planar_run, out, film.Request(view=view)))
 
 
 def test_windows_and_times_are_numbers_in_order(planar_run: Run, tmp_path: Path) -> None:
@@ -119,9 +121,9 @@ def test_windows_and_times_are_numbers_in_order(planar_run: Run, tmp_path: Path)
             lambda window=window: series.series_figure(planar_run, window=window),
             lambda request=request: film.film(planar_run, tmp_path / "film.mp4", request),
         ):
-            assert cure in told(ValueError, call)
+            assert cure in message(ValueError, call)
     cure = "time 'last': a number is accepted, or None for the last frame"
-    assert told(TypeError, lambda: planar_run.field("last")) == cure
+    assert message(TypeError, lambda: planar_run.field("last")) == cure
 
 
 # ---- Runs ----------------------------------------------------------------------------------------
@@ -137,22 +139,22 @@ def test_a_directory_is_no_run_and_a_run_no_field(planar_run: Run, tmp_path: Pat
         lambda: trajectories.trajectory_figure(path),
         lambda: film.film(path, tmp_path / "film.mp4", film.Request()),
     ):
-        assert told(TypeError, call) == cure
-    assert "field(TIME) of a run gives one" in told(TypeError, lambda: grid(planar_run))
+        assert message(TypeError, call) == cure
+    assert "field(TIME) of a run gives one" in message(TypeError, lambda: grid(planar_run))
     assert list(Run(path).series) == ["time", "disc.speed"]
 
 
 def test_pictures_name_those_of_the_other_dimension(planar_run: Run, tmp_path: Path) -> None:
     for picture in (slices.slice_picture, space.surface_picture):
-        text = told(ValueError, lambda picture=picture: picture(planar_run))
+        text = message(ValueError, lambda picture=picture: picture(planar_run))
         assert text.endswith("is a run in the plane or about an axis: figure.picture draws it")
     other = tmp_path / "space"
     shutil.copytree(planar_run.path, other)
     case = other / "case.toml"
     case.write_text(case.read_text().replace('"planar"', '"spatial"'))
     run = open_run(other)
-    assert "slices.slice_picture" in told(ValueError, lambda: figure.picture(run))
-    assert "xmin xmax" in told(ValueError, lambda: slices.slice_picture(run, view=(1, 2)))
+    assert "slices.slice_picture" in message(ValueError, lambda: figure.picture(run))
+    assert "xmin xmax" in message(ValueError, lambda: slices.slice_picture(run, view=(1, 2)))
 
 
 @pytest.mark.parametrize("package", ["pandas", "pyvista"])
@@ -162,7 +164,7 @@ def test_a_missing_package_is_told_with_its_extra(
     calls = {"pandas": (planar_run.to_dataframe, "table"), "pyvista": (planar_run.field, "picture")}
     call, extra = calls[package]
     monkeypatch.setitem(sys.modules, package, None)
-    text = told(ModuleNotFoundError, call)
+    text = message(ModuleNotFoundError, call)
     assert text.startswith(f"the package {package} is not installed: pip install 'alewife[{extra}")
 
 
@@ -171,15 +173,15 @@ def test_a_missing_package_is_told_with_its_extra(
 
 @pytest.mark.parametrize("value", [2.0, "thick", {"a": 1}, np.array(2.0)])
 def test_a_sweep_takes_lists_of_values(value: object) -> None:
-    text = told(TypeError, lambda: alewife.sweep(CASE, {"fluid.viscosity": value}))
+    text = message(TypeError, lambda: alewife.sweep(CASE, {"fluid.viscosity": value}))
     assert text.startswith(f"fluid.viscosity: {value!r} is one value; a list of values is accepted")
     assert f"case.set('fluid.viscosity', {value!r})" in text
 
 
 def test_a_sweep_takes_a_case_and_a_grid(monkeypatch: pytest.MonkeyPatch) -> None:
-    text = told(TypeError, lambda: alewife.sweep(CASE, ["fluid.viscosity"]))
+    text = message(TypeError, lambda: alewife.sweep(CASE, ["fluid.viscosity"]))
     assert "such as {'fluid.viscosity': [1.0, 2.0]}" in text
-    text = told(TypeError, lambda: alewife.sweep("squirmer-alone", {}))
+    text = message(TypeError, lambda: alewife.sweep("squirmer-alone", {}))
     assert text == "'squirmer-alone' is no case: alewife.load('squirmer-alone') is one"
     given: list[str] = []
 
@@ -202,7 +204,7 @@ def test_settings_are_refused_where_they_are_made() -> None:
         ("fluid.viscosity", b"2", "fluid.viscosity: b'2': a number, a text"),
         ("fluid.viscosity", [object()], "fluid.viscosity: <object"),
     ):
-        assert cure in told(TypeError, lambda key=key, value=value: CASE.set(key, value))
+        assert cure in message(TypeError, lambda key=key, value=value: CASE.set(key, value))
     given = CASE.set("fluid.viscosity", np.array(2.0)).arguments()
     assert given[-1] == "fluid.viscosity=2.0"
 

@@ -1,4 +1,4 @@
-"""What the pages tell to type works, and what they link to is there.
+"""What the pages say to type works, and what they link to is there.
 
 Blocks of `sh` of a page run one after the other in a new folder, and so do blocks of `python`. A
 comment `<!-- file: NAME -->` before a block writes it to that file, `<!-- from: PATH -->` copies a
@@ -111,7 +111,7 @@ def surroundings(tools: Path) -> dict[str, str]:
 
 
 def follow(text: str, folder: Path) -> int:
-    """Does what a page tells, and counts the blocks that ran."""
+    """Does what a page says, and counts the blocks that ran."""
     folder.mkdir(exist_ok=True)
     environment = surroundings(folder / "tools")
     file, is_left_out, count, printed = None, False, 0, ""

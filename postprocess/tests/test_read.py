@@ -93,10 +93,10 @@ def test_a_field_that_was_cut_short_is_one_line(
     content = file.read_bytes()
     file.write_bytes(content[: round(part * len(content))])
     assert cli.main(["picture", str(tmp_path / "run"), "--out", str(tmp_path / "x.png")]) == 2
-    told = capfd.readouterr()
-    assert told.out == ""
-    assert told.err.count("\n") == 1
-    assert "000040.vtu is not whole" in told.err
+    output = capfd.readouterr()
+    assert output.out == ""
+    assert output.err.count("\n") == 1
+    assert "000040.vtu is not whole" in output.err
     assert len(recwarn) == 0
     assert not (tmp_path / "x.png").exists()
 
@@ -114,8 +114,8 @@ def test_a_field_that_is_damaged_within_is_one_line(
         file.write_text(damaged)
         with pytest.raises(ValueError, match=r"damaged\.vtu is damaged"):
             read_field(file)
-    told = capfd.readouterr()
-    assert told.out + told.err == ""
+    output = capfd.readouterr()
+    assert output.out + output.err == ""
 
 
 @pytest.mark.parametrize("time", [-0.1, 4.01, 100.0])

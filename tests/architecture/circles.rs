@@ -186,7 +186,7 @@ fn no_file_uses_itself_through_others() {
         let mut known = BTreeSet::new();
         for module in uses.keys() {
             let Some(circle) = way(&uses, module, module) else { continue };
-            // One circle is told once
+            // One circle is reported once
             if circle.iter().all(|module| known.insert(module.clone()) || module == &circle[0]) {
                 let files: Vec<_> =
                     circle.iter().map(|module| all.files[module].as_str()).collect();

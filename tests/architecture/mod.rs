@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 22] = [
+const ROOMS: [(&str, &[&str]); 23] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -24,7 +24,7 @@ const ROOMS: [(&str, &[&str]); 22] = [
     ("time", &["case"]),
     ("body", &["time"]),
     ("contact", &["body"]),
-    ("gait", &["body"]),
+    ("gait", &["body", "case"]),
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "time", "timing"]),
     ("state", &["body", "contact", "coupling", "space"]),
@@ -46,7 +46,8 @@ const ROOMS: [(&str, &[&str]); 22] = [
     ("observer", &["body", "case", "flow", "run", "step", "timing"]),
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
-    ("cli", &["case", "coupling", "observer", "run", "step", "sweep", "timing", "validation"]),
+    ("runner", &["case", "observer", "run", "step", "validation"]),
+    ("cli", &["case", "observer", "run", "runner", "step", "sweep", "timing", "validation"]),
     ("main", &["cli"]),
 ];
 

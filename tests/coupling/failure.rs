@@ -47,7 +47,7 @@ fn a_stalled_newton_method_is_an_error_that_shows_the_last_iterate() {
     let mut observers: Vec<Box<dyn Observer<2>>> = vec![Box::new(Witness(Arc::clone(&seen)))];
     let error = simulate(&case, &mut observers).expect_err("one iteration is too few");
     assert!(matches!(error, RunError::Flow(FlowError::NewtonStalled { .. })), "{error}");
-    let (speed, reason) = seen.lock().expect("the run is over").take().expect("it was told");
+    let (speed, reason) = seen.lock().expect("the run is over").take().expect("it was reported");
     assert!((0.5..10.0).contains(&speed), "largest speed {speed}");
     assert!(reason.contains("refine the mesh"), "{reason}");
 }

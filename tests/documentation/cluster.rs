@@ -1,17 +1,14 @@
-//! The scripts of docs/cluster are those of its page, and do what they say with stand-ins for the batch systems.
+//! The scripts of docs/cluster are valid, and do what they say with stand-ins for the batch systems.
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::{blocks, root, text};
+use super::root;
 
 #[test]
-fn the_scripts_on_the_page_are_the_files() {
-    let shown = blocks(&text("docs/cluster.md"), "bash");
-    let shown: Vec<&str> = shown.iter().map(|(_, block)| block.as_str()).collect();
-    assert_eq!(shown, [text("docs/cluster/slurm.sh"), text("docs/cluster/pbs.sh")]);
+fn the_scripts_are_valid() {
     let scripts = ["docs/cluster/slurm.sh", "docs/cluster/pbs.sh", "docs/cluster/static.sh"];
     for script in scripts.into_iter().chain(["tests/slurm.sh", "tests/container.sh"]) {
         let parsed = Command::new("bash").arg("-n").arg(root().join(script)).status().unwrap();

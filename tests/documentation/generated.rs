@@ -43,7 +43,7 @@ fn the_gallery_shows_every_case() {
         writeln!(page, "`alewife run {name}{variant}`").unwrap();
         let picture = format!("pictures/{name}.png");
         if root().join("docs").join(&picture).is_file() {
-            writeln!(page, "\n![{title}]({picture})").unwrap();
+            writeln!(page, "\n![picture]({picture})").unwrap();
         }
     }
     up_to_date("docs/gallery.md", &page);
@@ -81,14 +81,28 @@ fn type_of(value: &Value) -> String {
         "boolean" => "true or false".to_owned(),
         kind => kind.to_owned(),
     };
-    match &value["type"] {
+    let kinds = match &value["type"] {
         Value::String(name) => kind(name),
         Value::Array(names) => {
             let names = names.iter().filter_map(Value::as_str).filter(|name| *name != "null");
             names.map(kind).collect::<Vec<_>>().join(" or ")
         }
         _ => String::new(),
-    }
+    };
+    kinds + &range(value)
+}
+
+/// The range of a number, behind its type.
+fn range(value: &Value) -> String {
+    let bound = |key: &str, sign: &str| value[key].as_f64().map(|bound| format!("{sign} {bound}"));
+    let bounds = [
+        bound("exclusiveMinimum", ">"),
+        bound("minimum", ">="),
+        bound("exclusiveMaximum", "<"),
+        bound("maximum", "<="),
+    ];
+    let bounds: Vec<String> = bounds.into_iter().flatten().collect();
+    if bounds.is_empty() { String::new() } else { format!(" {}", bounds.join(" and ")) }
 }
 
 /// A description on one line, as a cell of a table.

@@ -72,10 +72,10 @@ fn a_law_too_weak_for_a_body_is_named() {
         motion = "free"
         "#;
     let error = simulate::<2>(&case(&text), &mut []).expect_err("it sinks through");
-    let told = error.to_string();
-    assert!(matches!(error, RunError::Contact { .. }), "{told}");
+    let message = error.to_string();
+    assert!(matches!(error, RunError::Contact { .. }), "{message}");
     for word in ["`anvil`", "`bottom`", "lower epsilon", "step "] {
-        assert!(told.contains(word), "{word}: {told}");
+        assert!(message.contains(word), "{word}: {message}");
     }
 }
 
@@ -100,11 +100,11 @@ fn a_body_driven_into_a_wall_stops_the_run() {
         "#;
     for (text, is_proposed) in [(alone.clone(), false), (alone + other, true)] {
         let error = simulate::<2>(&case(&text), &mut []).expect_err("there is a wall");
-        let told = error.to_string();
-        println!("{told}");
+        let message = error.to_string();
+        println!("{message}");
         for word in ["`piston`", "`bottom`", "step 5 ", "failure/"] {
-            assert!(told.contains(word), "{word}: {told}");
+            assert!(message.contains(word), "{word}: {message}");
         }
-        assert_eq!(told.contains("[contact] keeps bodies apart"), is_proposed, "{told}");
+        assert_eq!(message.contains("[contact] keeps bodies apart"), is_proposed, "{message}");
     }
 }

@@ -1,7 +1,7 @@
-//! Runs that go on from about the step in which other velocities of bodies on a joint become the unknowns.
+//! Runs that continue from about the step in which other velocities of bodies on a joint become the unknowns.
 //!
 //! The unknown of a slider or hinge is the velocity along, or about, the axis of the laboratory to which its own
-//! axis is closest. Where it turns past the diagonal of two of them the system is numbered anew, and a run has to
+//! axis is closest. Where it turns past the diagonal of two of them the system is numbered again, and a run has to
 //! resume with what the solver kept for the state it resumes from.
 
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
@@ -125,7 +125,7 @@ impl Turning {
         (0..2).fold(FRAC_PI_4, nearer)
     }
 
-    /// Stops a run before the last of the steps, at each question whether to stop in it, and after it: what goes on
+    /// Stops a run before the last of the steps, at each question whether to stop in it, and after it: what continues
     /// from there has the same state, with all quantities so far, one step later.
     fn goes_on_with_the_same_bits<const D: usize>(&self, direction: f64, off: f64)
     where

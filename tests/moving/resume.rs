@@ -1,4 +1,4 @@
-//! Runs that go on from the state another one left.
+//! Runs that continue from the state another one left.
 
 use alewife_core::case::{Case, Model, TimeSettings};
 use alewife_core::run::{Dimension, RunSummary, SavedState, Solve, simulate};
@@ -48,10 +48,10 @@ where
     let expected = bits(&whole);
     for &[first, second] in stops {
         let saved: SavedState<D> = stopped(model, first);
-        let rest = resumed(model, &saved).expect("it goes on");
+        let rest = resumed(model, &saved).expect("it continues");
         assert!(bits(&rest) == expected, "{}: stopped after {first} steps", model.case.title);
         let again = stopped_again(model, &saved, second);
-        let rest = resumed(model, &again).expect("it goes on again");
+        let rest = resumed(model, &again).expect("it continues again");
         assert!(bits(&rest) == expected, "{}: stopped again after {second}", model.case.title);
     }
     whole
@@ -131,7 +131,7 @@ fn no_step_is_lost_where_a_run_is_stopped() {
         for (after, spared) in [(0, 0), (0, 1), (0, 4), (0, 9), (1, 1), (4, 1), (4, 2)] {
             let stopped = stopped_within_a_step::<2>(&case, after, spared);
             let rest = resumed(&case, stopped.state.as_ref().expect("it left a state"))
-                .expect("it goes on");
+                .expect("it continues");
             assert!(rest.series.times.starts_with(&stopped.times));
             let [rest, whole] = [&rest, &whole].map(bits);
             let row = rest.iter().zip(&whole).position(|(one, other)| one != other);
@@ -155,7 +155,7 @@ fn a_state_of_another_problem_is_refused_by_its_key() {
         ("boundary.top", "top = \"no-slip\"", "top = \"symmetry\""),
     ] {
         assert!(text.contains(from), "{from} is not in\n{text}");
-        let told = refused(&text.replacen(from, to, 1));
-        assert!(told.contains(&format!("by a case with {key} = ")), "{told}");
+        let message = refused(&text.replacen(from, to, 1));
+        assert!(message.contains(&format!("by a case with {key} = ")), "{message}");
     }
 }

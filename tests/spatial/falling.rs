@@ -109,7 +109,7 @@ fn jumps(scale: f64, end: f64) -> Vec<f64> {
     jumps
 }
 
-/// The force on a new mesh goes on as on the one before.
+/// The force on a new mesh continues as on the one before.
 #[test]
 fn forces_on_a_coarse_mesh_go_on_smoothly_across_a_new_one() {
     let jumps = jumps(1.6, 1.5);

@@ -110,7 +110,7 @@ fn carried(end: f64, scale: f64) -> (RunSummary, f64) {
     let momentum = last(&outcome, "flow.momentum_defect");
     figure!(periods, "periods, scale {scale}");
     figure!(momentum, "momentum defect, scale {scale}");
-    // Positions go on where the mesh shows the sphere periods before
+    // Positions continue where the mesh shows the sphere periods before
     for n in 1..x.len() {
         let mean = 0.5 * (velocity[n] + velocity[n - 1]);
         let way = mean * (time[n] - time[n - 1]);

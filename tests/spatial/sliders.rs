@@ -233,7 +233,7 @@ fn free_and_given_lengths_agree<const D: usize>() {
     figure!(off_law / size, "{D}: from the law");
     figure!(off / size, "{D}: from that of given lengths");
     // 4e-5 and 8e-5 were found, 9e-5 and 5e-4 on the coarse mesh in space: poses of the last pass that are within
-    // its tolerance, and a stroke that is cubic between the steps. Before the system was numbered anew where
+    // its tolerance, and a stroke that is cubic between the steps. Before the system was numbered again where
     // another component is the longest, both were off by 5e-2 to 2e-1 from there on.
     assert!(off_law < 2e-4 * size && off < 2e-3 * size, "{off_law} {off} {size}");
 }

@@ -12,7 +12,7 @@ type Figures = BTreeMap<String, BTreeMap<String, f64>>;
 /// another one iterations end elsewhere within their tolerance.
 const DRIFT: f64 = 0.05;
 
-/// Figures below are left by rounding or by iterations, which only their order of magnitude tells.
+/// Figures below are left by rounding or by iterations, of which only the order of magnitude counts.
 const NOISE: f64 = 1e-8;
 
 /// Factor by which those may differ.
@@ -50,7 +50,7 @@ fn stored() -> &'static Mutex<Figures> {
     })
 }
 
-/// The figures as they are written: three digits, which tell a drift and not the machine.
+/// The figures as they are written: three digits, which show a drift and not the machine.
 fn written(figures: &Figures) -> String {
     let mut text = String::from(
         "# What tests measure; `ALEWIFE_UPDATE=1 tests/long.sh` and `ALEWIFE_UPDATE=1 cargo test` \
@@ -67,13 +67,14 @@ fn written(figures: &Figures) -> String {
 
 /// What is to be said of a figure that was another one, and whether that is much.
 fn drift(was: f64, is: f64) -> Option<(String, bool)> {
-    let told = format!("{is:.2e}, was {was:.2e}");
+    let message = format!("{is:.2e}, was {was:.2e}");
     if was.abs().max(is.abs()) < NOISE {
         let is_much = is.abs() > NOISE_DRIFT * was.abs().max(ROUNDING);
-        return Some((told, is_much));
+        return Some((message, is_much));
     }
     let part = (is - was) / was.abs();
-    (part.abs() > DIGITS).then(|| (format!("{told} ({:+.1} %)", 100.0 * part), part.abs() > DRIFT))
+    (part.abs() > DIGITS)
+        .then(|| (format!("{message} ({:+.1} %)", 100.0 * part), part.abs() > DRIFT))
 }
 
 /// What [`figure!`] calls, with the module of the test.
@@ -96,11 +97,11 @@ pub fn record(module: &str, name: &str, value: f64) {
     };
     match drift(was, value) {
         // Past the capture of tests that pass
-        Some((told, true)) => {
-            let line = format!("drift: {module}: {name} {told}\n");
+        Some((message, true)) => {
+            let line = format!("drift: {module}: {name} {message}\n");
             std::io::stderr().write_all(line.as_bytes()).expect("the terminal takes it");
         }
-        Some((told, false)) => println!("{module}: {name} {told}"),
+        Some((message, false)) => println!("{module}: {name} {message}"),
         None => println!("{module}: {name} {value:.2e}"),
     }
 }

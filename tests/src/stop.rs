@@ -73,7 +73,7 @@ where
     stopped
 }
 
-/// What a run leaves that is asked to stop after some steps, and goes on for as many more questions
+/// What a run leaves that is asked to stop after some steps, and continues for as many more questions
 /// whether to stop as it is `spared`.
 ///
 /// # Panics

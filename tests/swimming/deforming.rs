@@ -1,5 +1,5 @@
 //! Bodies that deform, with inertia: balances, remeshing in the middle of a beat, states that
-//! are gone on from.
+//! are continued.
 
 use alewife_core::coupling::BodyShapes;
 use alewife_core::run::{RunError, RunSummary, build_mesh, build_problem, simulate};
@@ -154,7 +154,7 @@ fn a_swimmer_that_goes_on_from_a_state_ends_where_it_would_have_ended() {
     let ends = |outcome: &RunSummary| names.map(|name| last(outcome, name));
     for after in [5, 24] {
         let saved = stopped::<2>(&case, after);
-        let rest = resumed(&case, &saved).expect("it goes on");
+        let rest = resumed(&case, &saved).expect("it continues");
         for (one, other) in ends(&whole).iter().zip(ends(&rest)) {
             assert!((one - other).abs() < 1e-8, "{:?} {:?}", ends(&whole), ends(&rest));
         }
@@ -167,8 +167,8 @@ fn a_state_of_another_gait_is_refused() {
     let saved = stopped::<2>(&with(BEAT), 24);
     let other = with(&BEAT.replace("period = 1.0", "period = 11.0"));
     let error = resumed(&other, &saved).expect_err("another gait");
-    let told = error.to_string();
-    assert!(told.contains("body.0.gait.") && told.contains(".period = 1.0"), "{told}");
+    let message = error.to_string();
+    assert!(message.contains("body.0.gait.") && message.contains(".period = 1.0"), "{message}");
 }
 
 /// Its outline crosses itself between the times at which the gait is evaluated before the run.

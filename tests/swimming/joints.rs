@@ -173,7 +173,7 @@ fn a_state_of_other_strokes_is_refused() {
     let saved = stopped::<2>(&with(0.1), 3);
     assert!(resumed(&with(0.1), &saved).is_ok());
     let error = resumed(&with(0.2), &saved).expect_err("other strokes");
-    let told = error.to_string();
+    let message = error.to_string();
     let key = "swimmer.0.kind.linked-spheres.arms.1.sine.amplitude = 0.1";
-    assert!(told.contains(key), "{told}");
+    assert!(message.contains(key), "{message}");
 }

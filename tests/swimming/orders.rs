@@ -112,8 +112,8 @@ fn stiff_contact_is_no_matter_of_explicit_steps() {
     };
     assert!(run("contact.barrier = { range = 0.15, stiffness = 50.0 }").is_ok());
     let error = run("contact.barrier = { range = 0.15, stiffness = 1e9 }").unwrap_err();
-    let told = error.to_string();
-    assert!(told.contains("too fast for a step") && told.contains("bdf2"), "{told}");
+    let message = error.to_string();
+    assert!(message.contains("too fast for a step") && message.contains("bdf2"), "{message}");
 }
 
 /// One arm of each: what comes of the smooth one is larger than the trifle to which places settle.

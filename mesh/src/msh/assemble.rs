@@ -43,7 +43,7 @@ pub fn read_msh<const D: usize>(bytes: &[u8], scale: f64) -> Result<Mesh<D>, Msh
     divide(&mut parts);
     let mesh = mesh_of(parts, facets.boundaries)?;
     check_mesh(&mesh).map_err(|error| {
-        MshError::of_mesh(format!("no conforming mesh: {error}"), "mesh the model anew in Gmsh")
+        MshError::of_mesh(format!("no conforming mesh: {error}"), "mesh the model again in Gmsh")
     })?;
     Ok(mesh)
 }
@@ -160,7 +160,7 @@ fn turn<const D: usize>(
     if measure.is_nan() || measure.abs() <= NO_VOLUME {
         let kind = if D == 2 { "no area" } else { "no volume" };
         let found = format!("element {tag} {} has {kind}", at(&corner(0)));
-        return Err(MshError::of_mesh(found, "mesh the model anew in Gmsh"));
+        return Err(MshError::of_mesh(found, "mesh the model again in Gmsh"));
     }
     if measure < 0.0 {
         cell.swap(D - 1, D);
@@ -183,7 +183,10 @@ fn sides<const D: usize>(
                 let place = at(&parts.vertices[cell[0]]);
                 let found =
                     format!("more than two elements share a facet of element {tag} {place}");
-                return Err(MshError::of_mesh(found, "cells may not overlap: mesh the model anew"));
+                return Err(MshError::of_mesh(
+                    found,
+                    "cells may not overlap: mesh the model again",
+                ));
             }
         }
     }

@@ -116,7 +116,7 @@ fn sorted(mut all: Vec<ClosestPoints>) -> Vec<ClosestPoints> {
 }
 
 /// The closest points of two smooth surfaces with gaps below `range` (m).
-fn facing(one: &SmoothSurface, two: &SmoothSurface, range: f64) -> Vec<ClosestPoints> {
+pub(super) fn facing(one: &SmoothSurface, two: &SmoothSurface, range: f64) -> Vec<ClosestPoints> {
     let is_far = if two.is_given() {
         two.gap(one.origin()) - one.reach() >= range
     } else {

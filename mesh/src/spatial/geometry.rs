@@ -64,7 +64,7 @@ impl Geometry {
             let own = own.map(|(_, size)| *size).fold(f64::INFINITY, f64::min);
             surface.boundary = BoundaryId::new(side);
             surface.is_periodic = domain.is_periodic(side);
-            // The fluid goes on there, and nothing faces it
+            // The fluid continues there, and nothing faces it
             let facing = if surface.is_periodic { f64::INFINITY } else { domain.facing(side) };
             surface.size = own.min(sizing.size).min(facing / sizing.gap_layers);
             surface.turn = sizing.turn;

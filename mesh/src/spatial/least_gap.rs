@@ -9,7 +9,7 @@ pub const STARTS: usize = 48;
 /// Steps of the search from each of them.
 const FIRST_STEPS: usize = 3;
 
-/// Places from which the search goes on, those with the smallest gaps.
+/// Places from which the search continues, those with the smallest gaps.
 const KEPT: usize = 4;
 
 /// Most steps from one of them.

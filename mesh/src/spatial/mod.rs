@@ -4,6 +4,7 @@
 //! other and improved by local changes; where cells touch a curved surface, their quality is that
 //! of the curved cell.
 
+mod apart;
 mod body_surface;
 mod closest;
 mod count;

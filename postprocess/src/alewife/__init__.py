@@ -8,12 +8,20 @@
 """
 
 from alewife.case import Case, load
-from alewife.program import AlewifeError, BadCaseError, SolverError, StoppedError, find_program
+from alewife.program import (
+    AlewifeError,
+    AlewifeWarning,
+    BadCaseError,
+    SolverError,
+    StoppedError,
+    find_program,
+)
 from alewife.run import CaseRun
 from alewife.sweep import sweep
 
 __all__ = [
     "AlewifeError",
+    "AlewifeWarning",
     "BadCaseError",
     "Case",
     "CaseRun",

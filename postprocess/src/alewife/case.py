@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from alewife.program import call
+from alewife.program import AlewifeWarning, call
 from alewife.run import CaseRun, open_case_run
 
 #: What a key of a case may be set to.
@@ -71,7 +72,11 @@ class Case:
         if not progress:
             options.append("--quiet")
         call("run", *self.arguments(), *options, progress=progress)
-        return open_case_run(Path(out), kept)
+        run = open_case_run(Path(out), kept)
+        for one in run.warnings:
+            times = f" ({one['count']} times)" if one["count"] > 1 else ""
+            warnings.warn(one["message"] + times, AlewifeWarning, stacklevel=2)
+        return run
 
 
 def load(name: str | Path) -> Case:

@@ -25,6 +25,10 @@ class AlewifeError(RuntimeError):
         self.code = code
 
 
+class AlewifeWarning(UserWarning):
+    """Something odd in a case, or that a run warned of."""
+
+
 class BadCaseError(AlewifeError):
     """A case is wrong; the message names file, line and key, and what would be accepted."""
 
@@ -74,7 +78,7 @@ def call(*arguments: str | Path, progress: bool = False) -> str:
         try:
             output, messages = process.communicate()
         except KeyboardInterrupt:
-            # The terminal has told the program, too: it ends after its step
+            # The terminal has signalled the program, too: it ends after its step
             process.wait()
             raise
     if process.returncode != 0:

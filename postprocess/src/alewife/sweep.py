@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import tempfile
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alewife.case import Case, Value, to_toml
-from alewife.program import call
+from alewife.program import AlewifeWarning, call
 from alewife_post import checked
 
 if TYPE_CHECKING:
@@ -57,7 +58,13 @@ def sweep(
                 arguments += ["--set", f"{key}={to_toml(value)}"]
         call("sweep", "run", *arguments, *options, progress=progress)
         call("sweep", "collect", directory)
-        return _table(directory / "sweep.csv")
+        table = _table(directory / "sweep.csv")
+        warned = np.asarray(table["point"])[np.asarray(table["warnings"]) > 0]
+        if len(warned) > 0:
+            points = ", ".join(str(int(point)) for point in warned)
+            message = f"points that warned, column `warnings`: {points}"
+            warnings.warn(message, AlewifeWarning, stacklevel=2)
+        return table
 
 
 def _values(key: str, values: Sequence[Value]) -> list[Value]:

@@ -26,7 +26,7 @@ class UnknownNameError(KeyError):
 
 
 class Named(dict[str, T]):
-    """What has names: a dictionary that tells of a name it has not which ones are near."""
+    """A dictionary by names that, asked for one it does not have, says which ones are near."""
 
     def __init__(self, items: Mapping[str, T], kind: str, listed: str) -> None:
         """Take over items; `kind` is what they are, and `listed` what gives all names."""
@@ -35,9 +35,11 @@ class Named(dict[str, T]):
         self.listed = listed
 
     def __missing__(self, name: object) -> NoReturn:
-        """Tell of the nearest names."""
-        told = unknown(self.kind, str(name), self)
-        raise UnknownNameError(f"{told}; {self.listed} gives all {len(self)}" if self else told)
+        """Say which names are nearest."""
+        message = unknown(self.kind, str(name), self)
+        raise UnknownNameError(
+            f"{message}; {self.listed} gives all {len(self)}" if self else message
+        )
 
 
 @dataclass(frozen=True)

@@ -58,7 +58,7 @@ def _turn(history: BodyHistory, time: float) -> Array:
 
 
 def shape(run: Run, name: str, time: float) -> Shape | None:
-    """What a body looks like at a time, if that was written or its case tells."""
+    """What a body looks like at a time, if that was written or its case says it."""
     found = run.shapes.get(name)
     if found:
         before = [one for one in found if one.time <= time + 1e-12]

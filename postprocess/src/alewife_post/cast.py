@@ -20,7 +20,7 @@ Array = np.ndarray
 
 
 class Cast:
-    """Bodies of a run as surfaces, and what tells of their motion."""
+    """Bodies of a run as surfaces, and what shows their motion."""
 
     def __init__(self, run: Run) -> None:
         """Nothing is made before it is asked for."""

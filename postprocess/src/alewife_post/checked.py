@@ -1,4 +1,4 @@
-"""Arguments as they are given: what is wrong is told with what is accepted, and the cure."""
+"""Arguments as they are given: what is wrong is reported with what is accepted, and the cure."""
 
 from __future__ import annotations
 

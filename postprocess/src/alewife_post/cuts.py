@@ -66,7 +66,7 @@ def whole_slice(
     quantity: str,
     region: tuple[Array, Array] | None = None,
 ) -> pyvista.PolyData:
-    """A slice that goes on beyond the mesh of a periodic domain, over its box or a region."""
+    """A slice that continues beyond the mesh of a periodic domain, over its box or a region."""
     if not periods(case).any():
         return slice_of(field, cut, quantity)
     import pyvista

@@ -19,6 +19,8 @@ KINDS = {
     "literature": "published",
     "exact": "exact",
     "independent": "another code",
+    "approximate": "approximation",
+    "internal": "own other run",
     "property": "condition",
     "regression": "own earlier run",
 }

@@ -24,7 +24,7 @@ from alewife_post.request import (
 __all__ = ["MOST_FRAMES", "QUANTITIES", "Moment", "Request", "film"]
 
 
-def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = print) -> int:
+def film(run: Run, out: Path, request: Request, report: Callable[[str], None] = print) -> int:
     """Write a film of a run, finished or under way; returns the number of frames."""
     check_run(run)
     out = Path(out)
@@ -37,7 +37,7 @@ def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = pr
         raise ValueError(f"{request.fps:g} frames a second: between 0.1 and 100 can be played")
     if request.frames < 1:
         raise ValueError("a film has one frame at least")
-    quantity = chosen_quantity(run, request, tell)
+    quantity = chosen_quantity(run, request, report)
     is_asked = request.follow is not None
     request = replace(
         request, quantity=quantity, follow=who_is_followed(run, request), is_asked=is_asked
@@ -49,7 +49,7 @@ def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = pr
     style.use()
     images = (stage if run.is_spatial else planar).images(run, moments, request)
     n = movie.write(out, images, fps)
-    tell(
+    report(
         f"{out}: {n} {'frame' if n == 1 else 'frames'} of {request.iso or quantity}, "
         f"t = {moments[0].time:.4g} to {moments[-1].time:.4g}, {fps:g} a second"
     )

@@ -1,4 +1,4 @@
-"""Surfaces of equal vorticity in space, and the value that tells most of it."""
+"""Surfaces of equal vorticity in space, and the value that shows most of it."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def isosurface(
 ) -> pyvista.PolyData:
     """The surface on which a quantity has a value, within a box `(2, 3)`, smooth to look at.
 
-    That of a periodic domain goes on beyond the mesh.
+    That of a periodic domain continues beyond the mesh.
     """
     import pyvista
 

@@ -49,7 +49,7 @@ def fitting(aspect: float | None, has_bar: bool) -> tuple[int, int]:
 
 
 class Page:
-    """A figure of fixed size whose axes are drawn anew for each frame."""
+    """A figure of fixed size whose axes are drawn again for each frame."""
 
     def __init__(
         self, size: tuple[int, int] | None, title: str, aspect: float | None, bar: Bar | None

@@ -29,7 +29,7 @@ LONGEST = 44
 """Letters of a source beside a row."""
 AROUND = 1.3
 """An axis ends this many times as far out as differences, tolerances and published uncertainties;
-the discretisation error may go on beyond it."""
+the discretisation error may continue beyond it."""
 
 
 @dataclass(frozen=True)

@@ -103,6 +103,11 @@ class Run:
         return json.loads((self.path / "status.json").read_text())
 
     @cached_property
+    def warnings(self) -> list[dict[str, Any]]:
+        """What the run warned of: `message`, `time` (None before its first row) and `count`."""
+        return list(self.status.get("warnings", []))
+
+    @cached_property
     def provenance(self) -> dict[str, Any]:
         """Which program ran the case, where and how."""
         return json.loads((self.path / "provenance.json").read_text())
@@ -172,7 +177,7 @@ class Run:
             # Killed before anything was written.
             return
         with (self.path / "run.mcap").open("rb") as file:
-            # The index at the end of the file is missing while the run goes on.
+            # The index at the end of the file is missing while the run continues.
             found = NonSeekingReader(file).iter_messages(log_time_order=False)
             try:
                 for _schema, channel, message in found:

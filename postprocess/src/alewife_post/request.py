@@ -75,7 +75,7 @@ def checked_request(request: Request) -> Request:
     return request
 
 
-def chosen_quantity(run: Run, request: Request, tell: Callable[[str], None]) -> str:
+def chosen_quantity(run: Run, request: Request, report: Callable[[str], None]) -> str:
     """The quantity asked for, if the run has it, or the one that suits the run."""
     n = len(run.fields)
     has_motion = any(len(history.time) > 1 for history in run.bodies.values())
@@ -85,7 +85,7 @@ def chosen_quantity(run: Run, request: Request, tell: Callable[[str], None]) -> 
         if request.surface and n:
             return "pressure"
         if n < FEW_FIELDS and has_motion and n < len(next(iter(run.bodies.values())).time):
-            tell(
+            report(
                 f"{n} field {'file' if n == 1 else 'files'} only: bodies are shown without the "
                 "flow; output.fields of the case, such as { time = 0.1 }, asks for more"
             )

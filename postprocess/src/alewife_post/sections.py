@@ -34,7 +34,7 @@ def sample(
 ) -> dict[str, Array]:
     """Values and velocity at points `(n, 3)`, masked outside the fluid.
 
-    With its case, a periodic domain goes on beyond its mesh.
+    With its case, a periodic domain continues beyond its mesh.
     """
     import pyvista
 

@@ -27,7 +27,7 @@ SQUEEZED = 3.0
 MOST_PANELS = 5
 """Panels drawn where no quantity is asked for."""
 MANY = 6
-"""Curves from which on they are told apart by a colour map."""
+"""Curves from which on they are distinguished by a colour map."""
 DASHES: tuple[Any, ...] = ("-", (0, (5, 3)), (0, (2, 2)), (0, (6, 2, 1, 2)))
 """Lines of curves in turn, so that one under another is seen."""
 FEW = 10

@@ -115,7 +115,7 @@ def paint_bodies(
     colour: Callable[[str], str] = lambda name: style.BODY,
     trails: bool = False,
 ) -> None:
-    """Bodies below the flow, so that its edge is theirs, and what tells of their motion above it.
+    """Bodies below the flow, so that its edge is theirs, and what shows their motion above it.
 
     `field` is the whole flow. Bodies that deform are what its mesh leaves out; without it they are
     dots.

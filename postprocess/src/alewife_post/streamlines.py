@@ -144,7 +144,7 @@ class Piece:
         """The cells of a field, with nodal values of psi."""
         level = 4 if len(field.cells) < MANY_CELLS else 2
         triangles, weights = subdivide(field.cells, level)
-        # Lines go on from cell to cell where these share their points.
+        # Lines continue from cell to cell where these share their points.
         numbers = shared_points(field.cells, level)
         _, first, index = np.unique(numbers, return_index=True, return_inverse=True)
         x, y = refine(field.nodes, field.cells, weights)[first].T

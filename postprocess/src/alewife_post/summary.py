@@ -72,6 +72,7 @@ def _state(run: Run) -> dict[str, Any]:
     found = {key: status.get(key) for key in keys}
     for kind in ("cpu_seconds", "wall_seconds"):
         found[kind] = status.get(kind, {}).get("total")
+    found["warnings"] = [one["message"] for one in run.warnings]
     found["restarts"] = status.get("restarts", {}).get("count")
     return found
 
@@ -131,6 +132,7 @@ def as_text(found: dict[str, Any]) -> str:
     lines.append(f"state     {_state_text(state)}")
     if state.get("cpu_seconds") is not None:
         lines.append(f"cost      {_cost_text(state)}")
+    lines += [f"warning   {message}" for message in state.get("warnings", [])]
     if program:
         lines.append(
             f"program   alewife {program['alewife']} ({program['git']}), "

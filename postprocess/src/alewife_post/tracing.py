@@ -138,7 +138,7 @@ def found_mirror(grid: Grid, axis: int, place: float) -> Mirror | None:
     plain = Mirror(axis, place, 1.0)
     other = plain.turned(_directions(grid.at(plain.images(points))))
     both = np.isfinite(own).all(axis=1) & np.isfinite(other).all(axis=1)
-    # Of a view that is mostly on one side nothing can be told
+    # Of a view that is mostly on one side nothing can be concluded
     if both.sum() < max(1.0, 0.5 * np.isfinite(own).all(axis=1).sum()):
         return None
     for sign in (1.0, -1.0):

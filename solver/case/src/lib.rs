@@ -8,9 +8,8 @@ mod spec;
 mod sweep;
 mod text;
 
-pub use model::numbers::{
-    DerivedNumber, derived_numbers, geometry_name, number_table, rounded, significant,
-};
+pub use model::derived_number::DerivedNumber;
+pub use model::numbers::{derived_numbers, geometry_name, number_table, rounded, significant};
 pub use model::region::{normal_axis, opposite};
 pub use model::{Model, SwimmerModel};
 pub use quantity::{
@@ -21,7 +20,7 @@ pub use read::CaseFile;
 pub use read::library;
 pub use read::problem_keys::collect_keys;
 pub use read::schema::schema;
-pub use rules::check;
+pub use rules::{at_rest, check};
 pub use spec::body::axial_vector::AxialVector;
 pub use spec::body::gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
@@ -31,14 +30,15 @@ pub use spec::body::joint::{Ball, Hinge, Joint, JointKind, Slider};
 pub use spec::body::link::{Link, ShapedLink};
 pub use spec::body::orientation::Orientation;
 pub use spec::body::spring::SpringSpec;
+pub use spec::body::squirmer::SquirmerGait;
 pub use spec::body::stroke::{Stroke, smooth_ramp};
 pub use spec::body::swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use spec::body::{
     Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, LoadFrame, Lock, Motion,
-    PartSpec, ShapeSpec, SquirmerGait,
+    PartSpec, ShapeSpec,
 };
 pub use spec::case::Case;
-pub use spec::contact::ContactSpec;
+pub use spec::contact::{ContactLosses, ContactSpec};
 pub use spec::domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use spec::extent::Extent;
 pub use spec::fluid::{FlowModel, Fluid};
@@ -53,6 +53,7 @@ pub use spec::statistic::{ForceComponent, Statistic, StatisticKind};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };
+pub use spec::uncertainty::Uncertainty;
 pub use spec::units::{UnitLabels, Units};
 pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use text::diagnostic::{CaseError, Diagnostic, Severity, printable};

@@ -92,7 +92,7 @@ fn what_cannot_be_is_refused() {
     refused("domain.mesh.file=/dev/null", &["is no file"]);
     refused("domain.mesh.scale=0", &["`domain.mesh.scale` is 0", "above 0"]);
     refused("geometry=spatial", &["no tetrahedra"]);
-    refused("geometry=axisymmetric", &["does not fit", "half-disc, cylinder"]);
+    refused("geometry=axisymmetric", &["a mesh cannot stand", "half-disc, cylinder"]);
     refused("boundary.wall='symmetry'", &["boundary.wall", "`symmetry` holds on flat sides"]);
     refused("boundary.wall={ parabolic = { peak = 1.0 } }", &["`wall` is not straight"]);
     refused("boundary.wall={ periodic = 'inlet' }", &["neither periodic"]);

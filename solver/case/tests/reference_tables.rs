@@ -118,6 +118,25 @@ fn a_table_is_the_same_as_single_references() {
 }
 
 #[test]
+fn a_table_has_uncertainties_as_numbers_and_in_per_cent() {
+    let table = "quantity, value, absolute, relative, uncertainty, kind, source\n\
+                 disc.force.x, 4, 1, , 0.5, literature, stokes\n\
+                 disc.force.x, 4, , 0.1, 5 %, literature, stokes\n";
+    let text = format!("{CASE}{NAMED}");
+    let place = Place::new(&[
+        ("c.toml", &text),
+        ("references.csv", table),
+        ("d.toml", &text.replace("references.csv", "wrong.csv")),
+        ("wrong.csv", &table.replace("5 %", "5 p")),
+    ]);
+    let found = references(&place.read("c.toml", &[]).unwrap());
+    let uncertainties = found.iter().map(|one| one.expected.uncertainty.unwrap().of(4.0));
+    assert_eq!(uncertainties.collect::<Vec<_>>(), [0.5, 0.2]);
+    let told = place.read("d.toml", &[]).unwrap_err().to_string();
+    assert!(told.contains("wrong.csv:3") && told.contains("\"0.5 %\""), "{told}");
+}
+
+#[test]
 fn single_references_come_before_those_of_the_table_and_can_be_set() {
     let single = SINGLE.split("[[variant]]").next().unwrap().replace("1.5", "7.0");
     let text = format!("{CASE}{single}{NAMED}{VARIANTS}");

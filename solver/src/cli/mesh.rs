@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use alewife_mesh::{Encoding, write_msh, write_vtu};
 
-use super::engine::{self, too_large};
 use super::exit::{Exit, Failure};
 use super::read::read_case;
 use super::style::say;
 use crate::case::CaseFile;
 use crate::observer::write_atomic;
-use crate::run::{Dimension, Solve};
+use crate::run::{Dimension, Solve, build_mesh};
+use crate::runner::too_large;
 
 /// Where a mesh is written, and how.
 #[derive(Debug)]
@@ -60,8 +60,8 @@ fn write<const D: usize>(
 where
     Dimension<D>: Solve<D>,
 {
-    let mesh = engine::build_mesh::<D>(&file.model);
-    let mesh = mesh.map_err(|error| too_large::failure(file, error))?;
+    let mesh = build_mesh::<D>(&file.model);
+    let mesh = mesh.map_err(|error| too_large(file, error))?;
     let failed = |error: std::io::Error| {
         Failure::new(Exit::InputOutput, format!("cannot write {}: {error}", path.display()))
     };

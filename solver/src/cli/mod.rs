@@ -2,7 +2,6 @@
 
 mod check;
 mod complete;
-mod engine;
 mod exit;
 mod facts;
 mod library;
@@ -26,6 +25,8 @@ use clap_complete::Shell;
 use exit::{Exit, Failure};
 use read::Settings;
 use style::{complain, say};
+
+use crate::runner::outlive_file_size_limit;
 
 pub use panic::guard;
 
@@ -140,7 +141,7 @@ pub fn run() -> ExitCode {
         Ok(exit) => match style::stdout_error() {
             // What was asked for was done, but nobody can read it
             Some(error) => {
-                complain(&style::error(&format!("cannot write standard output: {error}")));
+                complain(&format!("error: cannot write standard output: {error}"));
                 Exit::InputOutput.into()
             }
             None => exit.into(),
@@ -153,7 +154,7 @@ pub fn run() -> ExitCode {
 }
 
 fn dispatch(command: Command) -> Result<Exit, Failure> {
-    engine::outlive_file_size_limit()?;
+    outlive_file_size_limit()?;
     match command {
         Command::List { long } => library::list(long),
         Command::Show { case, source } => library::show(&case, source),

@@ -5,7 +5,7 @@ use clap::Args;
 use super::complete;
 use super::exit::Failure;
 use super::style::{self, complain};
-use crate::case::{CaseFile, Diagnostic, Severity};
+use crate::case::{CaseFile, Diagnostic, Severity, at_rest, check};
 
 /// Keys set on the command line.
 #[derive(Debug, Clone, Args)]
@@ -19,10 +19,15 @@ pub struct Settings {
 /// Reads a case and refuses it if it is wrong; warnings are reported and let through.
 pub fn read_case(argument: &str, settings: &[String]) -> Result<CaseFile, Failure> {
     let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
-    if !warnings.is_empty() {
-        complain(&style::diagnostics(&warnings));
-    }
+    tell(&warnings);
     Ok(file)
+}
+
+/// Prints what is odd in a case.
+pub fn tell(warnings: &[Diagnostic]) {
+    if !warnings.is_empty() {
+        complain(&style::diagnostics(warnings));
+    }
 }
 
 /// A case without errors.
@@ -36,24 +41,10 @@ pub struct CheckedCase {
 /// Reads a case and refuses it if it is wrong; warnings are handed back.
 pub fn read_and_check(argument: &str, settings: &[String]) -> Result<CheckedCase, Failure> {
     let file = crate::case::Case::read(argument, settings)?;
-    let mut warnings = crate::case::check(&file);
+    let mut warnings = check(&file);
     if warnings.iter().any(|one| one.severity == Severity::Error) {
         return Err(Failure::wrong(&warnings));
     }
-    if file.model.is_at_rest() {
-        warnings.push(at_rest());
-    }
+    warnings.extend(at_rest(&file));
     Ok(CheckedCase { file, warnings })
-}
-
-/// Nothing will move.
-fn at_rest() -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Warning,
-        key: String::new(),
-        message: "nothing moves: no side, body, gait, stroke, load or `flow` drives the fluid".to_owned(),
-        help: "give a body a gait, a force or an imposed motion, a side a velocity, or joints a stroke"
-            .to_owned(),
-        location: None,
-    }
 }

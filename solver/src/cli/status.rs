@@ -1,7 +1,6 @@
 //! `status`: how far a run is, from the files in its directory.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
 
 use clap::{Args, ValueHint};
 use serde_json::json;
@@ -10,10 +9,6 @@ use super::exit::{Exit, Failure};
 use super::style::say;
 use crate::case::significant;
 use crate::observer::{Leg, Provenance, RunLock, RunState, Status, checkpoints};
-
-/// A running process writes its status every second; one on another computer that has not for this long was
-/// killed.
-const SILENCE: Duration = Duration::from_secs(120);
 
 /// What `status` is asked for.
 #[derive(Debug, Args)]
@@ -61,19 +56,17 @@ pub fn status(options: &Options) -> Result<Exit, Failure> {
 fn progress(directory: &Path) -> Result<Progress, Failure> {
     let path = directory.join("status.json");
     // Asked for first: a run that ends meanwhile says so in its status before it gives its lock free
-    let is_left = RunLock::is_left(directory);
+    let is_held = RunLock::is_held(directory, &["status.json"]);
     let status = Status::read(directory).map_err(|error| {
         let reason = format!("{}: {error}; give the directory of a run", path.display());
         Failure::new(Exit::NoInput, reason)
     })?;
     let part = status.end.filter(|end| *end > 0.0).map(|end| (status.time / end).clamp(0.0, 1.0));
     let is_running = status.state == RunState::Running;
-    let modified = std::fs::metadata(&path).and_then(|found| found.modified());
-    let age = modified.ok().and_then(|then| SystemTime::now().duration_since(then).ok());
     Ok(Progress {
         part,
         left: status.seconds_left().filter(|_| is_running),
-        is_killed: is_running && (is_left || age.is_some_and(|age| age > SILENCE)),
+        is_killed: is_running && !is_held,
         checkpoint: checkpoints(directory)?.into_iter().next(),
         legs: Provenance::read(directory).map(|provenance| provenance.legs).unwrap_or_default(),
         status,
@@ -129,6 +122,9 @@ impl Progress {
         }
         if let Some(reason) = reason {
             say(&format!("  {reason}"));
+        }
+        for warning in &self.status.warnings {
+            say(&format!("  warning: {}", warning.line()));
         }
         match &self.checkpoint {
             Some(path) => say(&format!("  latest checkpoint: {}", path.display())),

@@ -3,10 +3,7 @@
 use std::io::{self, IsTerminal, Write};
 use std::sync::OnceLock;
 
-use crate::case::{Diagnostic, Severity};
-
-/// Errors, and warnings, that are listed at once.
-const MOST_DIAGNOSTICS: usize = 20;
+pub use crate::runner::listing as diagnostics;
 
 /// A way to write text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,37 +47,17 @@ pub fn on_stdout(ink: Ink, text: &str) -> String {
     painted(ink, text, io::stdout().is_terminal())
 }
 
-/// Text in colour if standard error shows colours.
-pub fn on_stderr(ink: Ink, text: &str) -> String {
-    painted(ink, text, io::stderr().is_terminal())
-}
-
-/// A diagnostic with its severity in colour.
-pub fn diagnostic(diagnostic: &Diagnostic) -> String {
-    let (word, ink) = match diagnostic.severity {
-        Severity::Error => ("error", Ink::Red),
-        Severity::Warning => ("warning", Ink::Yellow),
+/// Text whose lines may begin with the word `error` or `warning`, these in colour.
+fn with_words(text: &str, is_terminal: bool) -> String {
+    let line = |line: &str| {
+        let words = [("error", Ink::Red), ("warning", Ink::Yellow)];
+        let begin = words.iter().find(|(word, _)| line.starts_with(&format!("{word}: ")));
+        begin.map_or_else(
+            || line.to_owned(),
+            |(word, ink)| line.replacen(word, &painted(*ink, word, is_terminal), 1),
+        )
     };
-    diagnostic.to_string().replacen(word, &on_stderr(ink, word), 1)
-}
-
-/// `error: ...`, the first word in colour.
-pub fn error(message: &str) -> String {
-    format!("{}: {message}", on_stderr(Ink::Red, "error"))
-}
-
-/// Diagnostics one below the other, errors first; of many of a kind the first ones.
-pub fn diagnostics(found: &[Diagnostic]) -> String {
-    let mut texts = Vec::new();
-    for (severity, many) in [(Severity::Error, "errors"), (Severity::Warning, "warnings")] {
-        let of_kind = || found.iter().filter(|one| one.severity == severity);
-        texts.extend(of_kind().take(MOST_DIAGNOSTICS).map(diagnostic));
-        let n = of_kind().count();
-        if n > MOST_DIAGNOSTICS {
-            texts.push(format!("... and {} more {many}", n - MOST_DIAGNOSTICS));
-        }
-    }
-    texts.join("\n\n")
+    text.split('\n').map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// Why standard output could not be written, if it could not.
@@ -107,7 +84,7 @@ pub fn stdout_error() -> Option<&'static io::Error> {
     STDOUT_ERROR.get()
 }
 
-/// Writes lines to standard error.
+/// Writes lines to standard error, `error` and `warning` at their beginning in colour.
 pub fn complain(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
+    let _ = writeln!(io::stderr().lock(), "{}", with_words(text, io::stderr().is_terminal()));
 }

@@ -7,7 +7,7 @@
 //! | `case.toml` | The case as it is run, all defaults filled in | at the start |
 //! | `bodies.json` | Swimmers and their bodies, joints, gaits | at the start |
 //! | `provenance.json` | Which program ran it, where and how, in which legs | at the start and at the end |
-//! | `status.json` | State, step, time, cost of each stage | every second and at the end |
+//! | `status.json` | State, step, time, cost of each stage, warnings | every second and at the end |
 //! | `log.jsonl` | Log, one JSON object a line | as it happens |
 //! | `series.csv` | One row a step | flushed every second |
 //! | `run.mcap` | Bodies and quantities as messages | flushed every few steps |
@@ -26,8 +26,9 @@ mod schedule;
 mod system;
 #[cfg(test)]
 mod tests;
+mod warnings;
 
-pub use console::{Progress, Tally, columns_of, start_log};
+pub use console::{Progress, Tally, columns_of, print_line, start_log};
 pub use files::{
     Checkpoint, CheckpointFiles, FieldFiles, SeriesFile, field_file_size, latest_checkpoint,
     read_state, state_size,
@@ -36,10 +37,11 @@ pub use live::LiveServer;
 pub use message_file::MessageFile;
 pub use observers::{Shown, observers};
 pub use run_directory::{
-    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, History, Leg, LegFile, LockError,
-    MESH_SIZE_FILE, Origin, Point, Provenance, Restarts, RunDirectory, RunDirectoryError, RunLock,
-    RunState, STOP, Start, Status, StatusFile, WriteTimes, checkpoints, executable, read_outcome,
-    read_series, run_of_state,
+    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, History, LOCK_FILE, Leg, LegFile,
+    LockError, MESH_SIZE_FILE, Origin, Point, Provenance, Restarts, RunDirectory,
+    RunDirectoryError, RunLock, RunState, STOP, Start, Status, StatusFile, WriteTimes, checkpoints,
+    executable, read_outcome, read_series, run_of_state,
 };
 pub use system::process::{peak_memory, reset_peak_memory};
 pub use system::{UNFINISHED, directory_of, write_atomic};
+pub use warnings::{Warning, begin_warnings, continue_warnings, warnings};

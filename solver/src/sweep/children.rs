@@ -19,6 +19,10 @@ const LOOK_EVERY: Duration = Duration::from_millis(100);
 const LEFT_ALONE: Duration = Duration::from_millis(200);
 /// Code of a run that stopped and continues.
 const STOPPED: u8 = 75;
+/// Code of a process whose point another one has.
+const IN_USE: u8 = 77;
+/// How often a point is begun again whose process was killed: by chance, or for want of memory.
+const MOST_KILLED: usize = 3;
 /// Bytes of what a child said that are kept, the last ones.
 const KEPT: usize = 4000;
 
@@ -31,6 +35,8 @@ pub enum Launch {
     Busy,
     /// Nothing: it is finished by now.
     IsDone,
+    /// Nothing: another process has found that it fails.
+    HasFailed(PointFailure),
     /// Nothing, and nothing any more: time is over.
     TimeIsOver,
 }
@@ -59,6 +65,8 @@ pub struct Ended {
 struct Queue {
     waiting: VecDeque<usize>,
     running: BTreeMap<usize, u32>,
+    /// How often the process of a point was killed.
+    kills: BTreeMap<usize, usize>,
     is_closed: bool,
 }
 
@@ -85,6 +93,19 @@ impl Shared {
         Ok(Some(child))
     }
 
+    /// Puts a point behind the others.
+    fn again(&self, index: usize) {
+        self.lock().waiting.push_back(index);
+    }
+
+    /// Whether a point is to be begun again whose process was killed once more.
+    fn survives_kill(&self, index: usize) -> bool {
+        let mut queue = self.lock();
+        let kills = queue.kills.entry(index).or_default();
+        *kills += 1;
+        *kills <= MOST_KILLED && !queue.is_closed
+    }
+
     /// Starts nothing any more, and asks all that run to stop.
     fn stop(&self) {
         let mut queue = self.lock();
@@ -108,7 +129,8 @@ pub fn run_children(
     must_stop: &dyn Fn() -> bool,
     on_end: &mut dyn FnMut(Ended),
 ) {
-    let queue = Queue { waiting: points.into(), running: BTreeMap::new(), is_closed: false };
+    let (running, kills) = (BTreeMap::new(), BTreeMap::new());
+    let queue = Queue { waiting: points.into(), running, kills, is_closed: false };
     let shared = Shared(Mutex::new(queue));
     thread::scope(|scope| {
         let (sender, events) = mpsc::channel();
@@ -139,17 +161,27 @@ fn work(shared: &Shared, launch: &(dyn Fn(usize) -> Launch + Sync), sender: &Sen
     while let Some(index) = shared.next() {
         match launch(index) {
             Launch::IsDone => tell(index, Ending::Finished),
+            Launch::HasFailed(failure) => tell(index, Ending::Failed(failure)),
             Launch::Busy => {
-                shared.lock().waiting.push_back(index);
+                shared.again(index);
                 thread::sleep(LEFT_ALONE);
             }
             Launch::TimeIsOver => shared.lock().is_closed = true,
             Launch::Start(mut command) => match shared.start(index, &mut command) {
                 Ok(None) => {}
-                Ok(Some(child)) => tell(index, wait(shared, index, child)),
+                Ok(Some(child)) => match wait(shared, index, child) {
+                    ChildEnd::Of(ending) => tell(index, ending),
+                    ChildEnd::InUse => {
+                        shared.again(index);
+                        thread::sleep(LEFT_ALONE);
+                    }
+                    // It continues from its latest checkpoint
+                    ChildEnd::Killed(_) if shared.survives_kill(index) => shared.again(index),
+                    ChildEnd::Killed(failure) => tell(index, Ending::Failed(failure)),
+                },
                 Err(error) => {
                     let reason = format!("its process could not be started: {error}");
-                    let failure = PointFailure { exit: None, reason };
+                    let failure = PointFailure::new(None, reason);
                     tell(index, Ending::Failed(failure));
                 }
             },
@@ -157,8 +189,18 @@ fn work(shared: &Shared, launch: &(dyn Fn(usize) -> Launch + Sync), sender: &Sen
     }
 }
 
+/// How a process ended, of a point or not.
+enum ChildEnd {
+    /// So its point ended.
+    Of(Ending),
+    /// Another process has the point.
+    InUse,
+    /// It was killed.
+    Killed(PointFailure),
+}
+
 /// Waits for a process, and says how it ended.
-fn wait(shared: &Shared, index: usize, mut child: Child) -> Ending {
+fn wait(shared: &Shared, index: usize, mut child: Child) -> ChildEnd {
     let mut said = Vec::new();
     if let Some(stderr) = &mut child.stderr {
         // What could be read says enough
@@ -168,25 +210,33 @@ fn wait(shared: &Shared, index: usize, mut child: Child) -> Ending {
     shared.lock().running.remove(&index);
     match child.wait() {
         Ok(status) => ending(status, &said),
-        Err(error) => Ending::Failed(PointFailure { exit: None, reason: error.to_string() }),
+        Err(error) => {
+            let failure = PointFailure::new(None, error.to_string());
+            ChildEnd::Of(Ending::Failed(failure))
+        }
     }
 }
 
-fn ending(status: ExitStatus, said: &[u8]) -> Ending {
+fn ending(status: ExitStatus, said: &[u8]) -> ChildEnd {
     let said = String::from_utf8_lossy(&said[said.len().saturating_sub(KEPT)..]).trim().to_owned();
     let exit = status.code().and_then(|code| u8::try_from(code).ok());
-    match (exit, status.signal()) {
-        (Some(0), _) => Ending::Finished,
-        (Some(STOPPED), _) => Ending::Stopped,
-        (_, Some(signal)) => {
-            let why = if signal == Signal::KILL.as_raw() {
-                ", by hand or for want of memory"
-            } else {
-                ""
-            };
-            let reason = format!("signal {signal} killed its process{why}");
-            Ending::Failed(PointFailure { exit: None, reason })
+    let signal = status.signal().map(Signal::from_named_raw);
+    match (exit, signal) {
+        (Some(0), _) => ChildEnd::Of(Ending::Finished),
+        (Some(IN_USE), _) => ChildEnd::InUse,
+        // Before it listens to signals, one ends it
+        (Some(STOPPED), _) | (_, Some(Some(Signal::TERM | Signal::INT | Signal::HUP))) => {
+            ChildEnd::Of(Ending::Stopped)
         }
-        _ => Ending::Failed(PointFailure { exit, reason: said }),
+        (_, Some(Some(Signal::KILL))) => {
+            let reason = "signal 9 killed its process, by hand or for want of memory".to_owned();
+            ChildEnd::Killed(PointFailure::new(None, reason))
+        }
+        (_, Some(_)) => {
+            let signal = status.signal().unwrap_or_default();
+            let reason = format!("signal {signal} killed its process");
+            ChildEnd::Of(Ending::Failed(PointFailure::new(None, reason)))
+        }
+        _ => ChildEnd::Of(Ending::Failed(PointFailure::new(exit, said))),
     }
 }

@@ -80,7 +80,7 @@ pub fn collect(directory: &SweepDirectory, quantities: &[SweepQuantity]) -> io::
     let mut writer = csv::Writer::from_writer(Vec::new());
     let plan = directory.plan();
     let front = ["point"].into_iter().chain(plan.swept.iter().map(String::as_str)).chain(["state"]);
-    let back = ["unknowns", "cpu_seconds", "reason"];
+    let back = ["unknowns", "cpu_seconds", "warnings", "reason"];
     let header = front.chain(quantities.iter().copied()).chain(references.iter().copied());
     writer.write_record(header.chain(back))?;
     for (index, (row, stand)) in rows.iter().zip(&stands).enumerate() {
@@ -100,8 +100,8 @@ fn plain(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
-/// Size, cost, and why it failed.
-fn ends_of(stand: &Stand) -> [String; 3] {
+/// Size, cost, number of warnings, and why it failed.
+fn ends_of(stand: &Stand) -> [String; 4] {
     let status = stand.status.as_ref();
     let reason = stand.failure.as_ref().map(|failure| failure.line().to_owned());
     [
@@ -109,6 +109,7 @@ fn ends_of(stand: &Stand) -> [String; 3] {
         status
             .and_then(|status| status.cpu_seconds.get("total").copied())
             .map_or_else(String::new, number),
+        status.map_or_else(String::new, |status| status.warnings.len().to_string()),
         reason.unwrap_or_default(),
     ]
 }

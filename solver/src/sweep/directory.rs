@@ -3,11 +3,14 @@
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
+use super::case_hash::hashes_of;
 use super::plan::Plan;
-use crate::observer::{UNFINISHED, write_atomic};
+use crate::case::{CaseError, Sweep};
+use crate::observer::{LOCK_FILE, LockError, RunLock, UNFINISHED, write_atomic};
 
 /// What the sweep is.
 pub const PLAN_FILE: &str = "sweep.json";
@@ -50,10 +53,19 @@ pub enum SweepDirectoryError {
         /// What is wrong in it.
         reason: String,
     },
+    /// The case of a point is wrong.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// Another process writes its plan, and does not come to an end, or what is there is no lock.
+    #[error(transparent)]
+    Lock(#[from] LockError),
     /// The file system refused.
     #[error(transparent)]
     Io(#[from] io::Error),
 }
+
+/// Longest time for another process to write the plan of the sweep.
+const PATIENCE: Duration = Duration::from_secs(300);
 
 /// The directory of a sweep.
 #[derive(Debug)]
@@ -63,26 +75,35 @@ pub struct SweepDirectory {
 }
 
 impl SweepDirectory {
-    /// The directory for a plan, made if it is not there.
+    /// The directory for the plan of a sweep, made if it is not there.
     ///
     /// # Errors
     /// [`SweepDirectoryError`]: it holds another sweep or other files, or cannot be written.
-    pub fn create(path: &Path, plan: Plan) -> Result<Self, SweepDirectoryError> {
+    pub fn create(path: &Path, plan: Plan, sweep: &Sweep) -> Result<Self, SweepDirectoryError> {
         fs::create_dir_all(path).map_err(|error| at(path, &error))?;
+        check_is_for_sweeps(path)?;
+        // One process at a time: the others find its plan
+        let _lock = hold(path)?;
+        check_is_for_sweeps(path)?;
         let earlier = match read_plan(path) {
             Ok(earlier) => Some(earlier),
             Err(SweepDirectoryError::None { .. }) => None,
             Err(error) => return Err(error),
         };
+        let mut plan = plan;
         if let Some(earlier) = &earlier {
             let differences = plan.differences(earlier);
             if !differences.is_empty() {
                 return Err(SweepDirectoryError::Other { path: path.to_owned(), differences });
             }
-        } else if holds_files(path)? {
-            return Err(SweepDirectoryError::NotASweep { path: path.to_owned() });
+            plan.cases.clone_from(&earlier.cases);
         }
-        let is_written = earlier.is_some_and(|earlier| earlier.quantities == plan.quantities);
+        if plan.cases.len() != plan.points.len() {
+            plan.cases = hashes_of(sweep)?;
+        }
+        let is_written = earlier.is_some_and(|earlier| {
+            (&earlier.quantities, &earlier.cases) == (&plan.quantities, &plan.cases)
+        });
         if !is_written {
             let mut text = serde_json::to_vec(&plan).map_err(io::Error::from)?;
             text.push(b'\n');
@@ -139,16 +160,42 @@ fn at(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
-/// Whether there is something in a directory that was not there a moment ago: another process may
-/// just write the plan of the same sweep.
-fn holds_files(path: &Path) -> Result<bool, SweepDirectoryError> {
-    for entry in fs::read_dir(path).map_err(|error| at(path, &error))? {
-        let name = entry?.file_name();
-        if name != PLAN_FILE && !name.to_string_lossy().starts_with(UNFINISHED) {
-            return Ok(!path.join(PLAN_FILE).is_file());
+/// Holds the directory of a sweep while its plan is written.
+fn hold(path: &Path) -> Result<RunLock, SweepDirectoryError> {
+    let started = Instant::now();
+    loop {
+        match RunLock::wait(path, || started.elapsed() > PATIENCE) {
+            Ok(Some(lock)) => return Ok(lock),
+            Ok(None) => {
+                return Err(LockError::InUse { path: path.to_owned(), holder: None }.into());
+            }
+            // It went with the lock of a process that found something wrong
+            Err(LockError::Io(error)) if error.kind() == io::ErrorKind::NotFound => {
+                fs::create_dir_all(path).map_err(|error| at(path, &error))?;
+            }
+            Err(LockError::NotALock { .. }) if !path.join(PLAN_FILE).is_file() => {
+                return Err(SweepDirectoryError::NotASweep { path: path.to_owned() });
+            }
+            Err(error) => return Err(error.into()),
         }
     }
-    Ok(false)
+}
+
+/// Refuses a directory without a plan that holds files of others. A lock and files that are not whole are left by a
+/// process that is killed before the plan is there.
+fn check_is_for_sweeps(path: &Path) -> Result<(), SweepDirectoryError> {
+    let has_plan = || path.join(PLAN_FILE).is_file();
+    for entry in fs::read_dir(path).map_err(|error| at(path, &error))? {
+        let name = entry?.file_name();
+        let is_ours = name == PLAN_FILE
+            || name == LOCK_FILE
+            || name.to_string_lossy().starts_with(UNFINISHED);
+        // Another process may have written it meanwhile
+        if !is_ours && !has_plan() {
+            return Err(SweepDirectoryError::NotASweep { path: path.to_owned() });
+        }
+    }
+    Ok(())
 }
 
 fn read_plan(path: &Path) -> Result<Plan, SweepDirectoryError> {

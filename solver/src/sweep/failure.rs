@@ -15,6 +15,9 @@ pub struct PointFailure {
     pub exit: Option<u8>,
     /// The reason.
     pub reason: String,
+    /// Whether it is that its directory holds the run of another case, which only who put it there can mend.
+    #[serde(default, skip_serializing)]
+    pub is_of_another_case: bool,
 }
 
 /// Codes with which a point ends whenever it is run again: the solver diverged, the mesh could not
@@ -22,6 +25,12 @@ pub struct PointFailure {
 const FOR_GOOD: [u8; 4] = [10, 11, 65, 76];
 
 impl PointFailure {
+    /// The failure of a run that ended with a code, if it did, and a reason.
+    #[must_use]
+    pub fn new(exit: Option<u8>, reason: impl Into<String>) -> Self {
+        Self { exit, reason: reason.into(), is_of_another_case: false }
+    }
+
     /// Whether the same would happen again.
     #[must_use]
     pub fn is_for_good(&self) -> bool {

@@ -9,6 +9,7 @@
 //! | `failed/0001.json`, ... | Why a point failed, and with which exit code |
 //! | `sweep.csv` | One row a point: what it sets, and what came out |
 
+mod case_hash;
 mod children;
 mod collect;
 mod directory;
@@ -22,5 +23,5 @@ pub use collect::collect;
 pub use directory::{PLAN_FILE, SweepDirectory, SweepDirectoryError, TABLE_FILE};
 pub use failure::PointFailure;
 pub use plan::Plan;
-pub use point_state::{PointState, Stand, stand};
+pub use point_state::{PointState, Stand, stand, stand_of_own};
 pub use script::{ArrayScript, MOST_TASKS};

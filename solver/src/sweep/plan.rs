@@ -5,10 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::case::{Case, Sweep, collect_keys};
+use super::case_hash::keys_of;
+use crate::case::{Case, Sweep};
 
-/// Tables and keys of a case at its top that change nothing of what is computed.
-const IRRELEVANT: [&str; 6] = ["title", "description", "output", "quick", "reference", "variant"];
 /// Differences that a message lists at most.
 const MOST_LISTED: usize = 12;
 /// Characters of a value that a message shows.
@@ -29,24 +28,20 @@ pub struct Plan {
     pub points: Vec<Vec<Value>>,
     /// All other keys of the case that decide what is computed, by their paths.
     pub keys: BTreeMap<String, String>,
+    /// Checksum of what is computed at each point, the first point first; none in plans of earlier versions.
+    #[serde(default)]
+    pub cases: Vec<String>,
 }
 
 impl Plan {
-    /// The plan of a sweep whose first point is a case.
+    /// The plan of a sweep whose first point is a case, without the checksums of its cases.
     ///
     /// # Errors
     /// When the case cannot be written.
     pub fn new(sweep: &Sweep, first: &Case) -> Result<Self, serde_json::Error> {
         let swept: Vec<String> = sweep.keys().into_iter().map(str::to_owned).collect();
-        let mut keys = BTreeMap::new();
-        if let Value::Object(tables) = serde_json::to_value(first)? {
-            for (name, value) in tables.iter().filter(|(name, _)| !IRRELEVANT.contains(&&***name)) {
-                collect_keys(name.clone(), value, &mut keys);
-            }
-        }
+        let mut keys = keys_of(&serde_json::to_value(first)?);
         keys.retain(|key, _| !swept.iter().any(|swept| is_within(key, swept)));
-        // A mesh is known by its checksum, wherever it lies
-        keys.remove("domain.mesh.file");
         Ok(Self {
             alewife: env!("CARGO_PKG_VERSION").to_owned(),
             case: sweep.name(),
@@ -54,6 +49,7 @@ impl Plan {
             quantities: sweep.quantities.iter().map(ToString::to_string).collect(),
             points: (0..sweep.n_points()).map(|index| sweep.point(index).values()).collect(),
             keys,
+            cases: Vec::new(),
         })
     }
 

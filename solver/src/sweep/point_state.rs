@@ -60,16 +60,30 @@ impl Stand {
 #[must_use]
 pub fn stand(directory: &SweepDirectory, index: usize) -> Stand {
     let path = directory.point(index);
+    // A process that has come to the end of a run may still compare it with references
+    if RunLock::is_held(&path, &[]) {
+        let status = Status::read(&path).ok();
+        return Stand { state: PointState::Running, status, failure: None };
+    }
+    stand_of_own(directory, index)
+}
+
+/// The same for a point that this process holds, or nobody.
+#[must_use]
+pub fn stand_of_own(directory: &SweepDirectory, index: usize) -> Stand {
+    let path = directory.point(index);
     let status = Status::read(&path).ok();
+    if let Some(failure) = directory.plan().misplaced(&path, index) {
+        return Stand { state: PointState::Failed, status, failure: Some(failure) };
+    }
     let mut failure = PointFailure::read(directory, index);
     let state = match status.as_ref().map(|status| status.state) {
         Some(RunState::Finished) => PointState::Finished,
-        Some(RunState::Running) if RunLock::is_held(&path) => PointState::Running,
         _ if failure.is_some() => PointState::Failed,
         None => PointState::Missing,
         Some(RunState::Failed) => {
             let reason = status.as_ref().and_then(|status| status.reason.clone());
-            failure = Some(PointFailure { exit: None, reason: reason.unwrap_or_default() });
+            failure = Some(PointFailure::new(None, reason.unwrap_or_default()));
             PointState::Failed
         }
         // A process that was killed leaves `running`, and gives its lock free

@@ -170,6 +170,17 @@ impl Comparison {
         })
     }
 
+    /// The reference's own uncertainty, relative to it if the tolerance is.
+    #[must_use]
+    pub fn reference_share(&self) -> Option<f64> {
+        let expected = &self.reference.expected;
+        let own = expected.uncertainty?.of(expected.value);
+        Some(match expected.relative {
+            Some(_) => own / expected.value.abs(),
+            None => own,
+        })
+    }
+
     /// The comparison as an object: numbers as numbers, `null` where there is none.
     #[must_use]
     pub fn to_json(&self) -> Value {
@@ -185,7 +196,7 @@ impl Comparison {
             "reference": self.reference.expected.value,
             "kind": self.reference.expected.kind.name(),
             "date": self.reference.expected.date,
-            "uncertainty": self.reference.expected.uncertainty,
+            "uncertainty": self.reference_share(),
             "numerical_uncertainty": self.numerical_share(),
             "difference": self.difference(),
             "tolerance": self.reference.expected.relative.or(self.reference.expected.absolute),
@@ -193,7 +204,9 @@ impl Comparison {
             "source": self.reference.expected.source,
             "note": self.reference.expected.note,
             "verdict": self.verdict.name().to_lowercase(),
+            "evidence": self.evidence_name(),
             "outside": self.reference.expected.outside,
+            "cause": self.reference.expected.cause,
             "reason": self.computed.as_ref().err(),
             "dofs": self.dofs,
             "cpu_seconds": self.cpu_seconds,

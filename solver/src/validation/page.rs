@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::comparison::Verdict;
+use super::evidence::EvidenceCount;
 use super::report::{Judged, count_cells, count_header, counts, summary_of};
-use super::section::{CaseReport, Coverage, known_outside, row, section};
+use super::section::{CaseReport, Coverage, VERDICT, known_outside, row, section};
 use crate::case::ReferenceKind;
 
 /// How the page begins, by which it is known.
@@ -18,24 +19,33 @@ const OUTSIDE: &str = "- `";
 
 const HEAD: &str = "\
 Written by `alewife validate --report`, not edited by hand. A section is replaced when its case is
-validated again; each says which program made its runs and when.";
+validated again; each says which program made its runs and when. Runs with the same mesh, steps and
+companion share a row, their CPU times in the order of their names; a variant is named in the first row
+of its values. Behind the band stands what is not within it.";
 
-/// The rule the tolerances of the shipped cases follow.
-const TOLERANCES: &str = "\
-A *tolerance* is at most five times the discretisation error of the shipped mesh and step, or the own
-uncertainty of the reference where that is larger (± reference). Where the error is small by
+/// What bands and evidence are.
+const VERDICTS: &str = "\
+A *band* is a regression band: at most five times the discretisation error of the shipped mesh and step, or the own
+uncertainty of the reference (the second ±) where that is larger. Where the error is small by
 chance, it is the size of the differences of the same quantity in the case; a value that is zero but
-for rounding has a tolerance far above rounding and far below anything that matters.";
+for rounding has a band far above rounding and far below anything that matters. A value that leaves its band has
+changed; that it is within says little of whether it is right.
+
+*Evidence* says that: a value is *confirmed* where |computed - reference| is not above the numerical uncertainty and that of
+the reference together, what is not known counting as nothing; otherwise it is *consistent* with the reference to the
+difference shown, and the cause is below the table. Conditions (`property`) and earlier values (`regression`)
+are no evidence.";
 
 /// The rule of `uncertainty.rs`.
 const UNCERTAINTIES: &str = "\
-The *numerical* uncertainty (± numerical) is the discretisation error of a computed value as the rule of
+The *numerical* uncertainty (the first ±) is the discretisation error of a computed value as the rule of
 Roache estimates it: 3 |f - g| / (r^p - 1), where g is the value of a companion with cells and steps r times as
 long, p the order and 3 the factor of safety where the order is not observed. The companion has
 `mesh.scale` and the step times the square root of 2; r is what its numbers of cells and steps come
 to, the smaller one. p is 2, or 1 with steps by backward Euler: Taylor-Hood elements on smooth flow
-do better, and then the uncertainty is too large. Where the value has no companion, or the companion
-failed or is hardly coarser, there is a dash.";
+do better, and then the uncertainty is too large. Two meshes may agree by chance: no uncertainty is taken to be below 2e-5 of the
+value, nor below the median of the same quantity in the case. Where the value has no companion, or the companion
+failed or is hardly coarser, there is a dash; so there is where a mesh file gives the sides, which the companion shares.";
 
 /// A page under way.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -88,9 +98,12 @@ impl ReportPage {
     pub fn text(&self, cases: &[&str]) -> String {
         let all: Vec<Judged> =
             self.sections.values().flat_map(|section| judged_in(&section.text)).collect();
+        let evidence = self.sections.values().fold(EvidenceCount::default(), |sum, section| {
+            cells_in(&section.text, "evidence").iter().fold(sum, |sum, cell| sum.with(cell))
+        });
         let mut page = format!(
-            "{TITLE}\n{HEAD}\n\n{}.\n\n{TOLERANCES}\n\n{UNCERTAINTIES}\n\n",
-            summary_of(&all)
+            "{TITLE}\n{HEAD}\n\n{}.\n\n{VERDICTS}\n\n{UNCERTAINTIES}\n\n",
+            summary_of(&all, evidence)
         );
         let absent: Vec<String> = cases
             .iter()
@@ -144,27 +157,37 @@ impl ReportPage {
 
 /// Kinds and verdicts in the tables of a section.
 fn judged_in(text: &str) -> Vec<Judged> {
-    let mut columns: Option<[usize; 2]> = None;
-    let mut all = Vec::new();
+    let kinds = cells_in(text, "kind");
+    // Pages of earlier programs have a column of verdicts, or of tolerances
+    let columns = ["verdict", "band", "tolerance"].map(|column| cells_in(text, column));
+    let verdicts = columns.into_iter().find(|cells| !cells.is_empty()).unwrap_or_default();
+    let judged = |(kind, cell): (&&str, &str)| {
+        let kind = ReferenceKind::ALL.into_iter().find(|one| one.name() == *kind)?;
+        let said = cell.split(VERDICT).last().unwrap_or_default();
+        let verdict = Verdict::ALL.into_iter().find(|one| one.name() == said);
+        Some(Judged { kind, verdict: verdict.unwrap_or(Verdict::Within) })
+    };
+    kinds.iter().zip(verdicts).filter_map(judged).collect()
+}
+
+/// Cells of a column of those tables in a section that have it.
+fn cells_in<'a>(text: &'a str, column: &str) -> Vec<&'a str> {
+    let mut index: Option<usize> = None;
+    let mut found = Vec::new();
     for line in text.lines() {
         let Some(inner) = line.strip_prefix("| ").and_then(|rest| rest.strip_suffix(" |")) else {
             if !line.starts_with('|') {
-                columns = None;
+                index = None;
             }
             continue;
         };
         let cells: Vec<&str> = inner.split(" | ").collect();
-        let Some([kind, verdict]) = columns else {
-            let of = |name: &str| cells.iter().position(|cell| *cell == name);
-            columns = of("kind").zip(of("verdict")).map(<[usize; 2]>::from);
-            continue;
-        };
-        let cell = |column: usize| cells.get(column).copied().unwrap_or_default();
-        let kind = ReferenceKind::ALL.into_iter().find(|one| one.name() == cell(kind));
-        let verdict = Verdict::ALL.into_iter().find(|one| one.name() == cell(verdict));
-        all.extend(kind.zip(verdict).map(|(kind, verdict)| Judged { kind, verdict }));
+        match index {
+            Some(index) => found.push(cells.get(index).copied().unwrap_or_default()),
+            None => index = cells.iter().position(|cell| *cell == column),
+        }
     }
-    all
+    found
 }
 
 #[cfg(test)]
@@ -173,6 +196,7 @@ mod tests {
     use crate::case::{Case, Reference};
     use crate::validation::comparison::judge;
     use crate::validation::section::{Links, MemberReport};
+    use crate::validation::uncertainty::{MeshSize, RunSize};
 
     /// The section of a case whose computed values are its references times these factors.
     fn report(name: &str, factors: [f64; 2]) -> CaseReport {
@@ -200,7 +224,7 @@ mod tests {
         page.set(&report("b", [1.0, 1.0]));
         page.set(&report("a", [1.0, 2.0]));
         let text = page.text(&[]);
-        assert!(text.contains("3 of 4 values within their tolerance"), "{text}");
+        assert!(text.contains("3 of 4 values within their band"), "{text}");
         assert!(text.find("## a\n").unwrap() < text.find("## b\n").unwrap());
         assert!(text.contains("\n**T.** A case.\n\n![T](pictures/a.png)\n\nRuns by alewife 0.\n"));
         let mut again = ReportPage::read(&text).unwrap();
@@ -210,7 +234,7 @@ mod tests {
         assert!(told.contains("\nNot on this page yet: `c`, `d`.\n"), "{told}");
         assert_eq!(ReportPage::read(&told).unwrap(), page);
         again.set(&report("a", [1.0, 1.0]));
-        assert!(again.text(&[]).contains("4 of 4 values within their tolerance"));
+        assert!(again.text(&[]).contains("4 of 4 values within their band"));
         assert!(again.text(&[]).ends_with(text.split("## b\n").nth(1).unwrap()));
     }
 
@@ -223,12 +247,34 @@ mod tests {
         let mut page = ReportPage::default();
         page.set(&case);
         let page = ReportPage::read(&page.text(&[])).unwrap().text(&[]);
-        assert!(page.contains("1 of 2 values within their tolerance, 1 outside for a known"));
+        assert!(page.contains("1 of 2 values within their band, 1 outside for a known"));
         let line = page.lines().find(|line| line.starts_with("- `a/v`, ")).unwrap();
         assert!(line.ends_with(": it is hard."), "{line}");
         let mut page = ReportPage::read(&page).unwrap();
         page.set(&report("a", [1.0, 1.0]));
         assert!(!page.text(&[]).contains("it is hard"));
+    }
+
+    #[test]
+    fn runs_alike_share_a_row_and_pages_with_a_column_of_verdicts_are_counted() {
+        let mut case = report("a", [1.0, 2.0]);
+        let mut own = case.members[0].clone();
+        own.name = "a".to_owned();
+        case.members.insert(0, own);
+        for (member, cpu_seconds) in case.members.iter_mut().zip([1.0, 2.0]) {
+            let mesh = MeshSize { cells: 7, shortest_edge: 0.5 };
+            member.size = Some(RunSize { mesh, dofs: 9, steps: 3, cpu_seconds });
+        }
+        let mut page = ReportPage::default();
+        page.set(&case);
+        let text = page.text(&[]);
+        assert!(text.contains("\n| (itself), v | 7 | 9 | 0.5 | 3 | 1.00, 2.00 | - |\n"), "{text}");
+        assert_eq!(text.matches(": OUTSIDE |\n").count(), 2, "{text}");
+        assert!(text.contains("2 of 4 values within"), "{text}");
+        let old = "| quantity | kind | tolerance | verdict |\n|---|---|---|---|\n\
+                   | q | exact | 1.0% | within |\n| q | exact | 1.0% | OUTSIDE |\n";
+        let old = ReportPage::read(&format!("{TITLE}{HEADING}a\n\n{old}")).unwrap().text(&[]);
+        assert!(old.contains("1 of 2 values within"), "{old}");
     }
 
     #[test]

@@ -1,8 +1,9 @@
-//! Comparisons for the terminal and as JSON: computed, reference, kind, difference, verdict; counts by kind.
+//! Comparisons for the terminal and as JSON: computed, reference, kind, difference, evidence, verdict; counts.
 
 use serde_json::{Map, Value, json};
 
 use super::comparison::{Comparison, Verdict};
+use super::evidence::EvidenceCount;
 use crate::case::{ReferenceKind, significant};
 
 /// The kind of a reference and what a comparison with it came to.
@@ -60,25 +61,26 @@ pub(super) fn count_cells(count: &Count) -> Vec<String> {
     [count.kind.name().to_owned(), count.total().to_string()].into_iter().chain(numbers).collect()
 }
 
-/// How many values are within their tolerance, and how many are known not to be.
+/// How many values are within their band, how many are known not to be, and how many are confirmed.
 #[must_use]
 pub fn summary(comparisons: &[Comparison]) -> String {
-    summary_of(&judged(comparisons))
+    summary_of(&judged(comparisons), EvidenceCount::of(comparisons))
 }
 
-pub(super) fn summary_of(all: &[Judged]) -> String {
+pub(super) fn summary_of(all: &[Judged], evidence: EvidenceCount) -> String {
     let number = |verdict| all.iter().filter(|one| one.verdict == verdict).count();
     let known = match number(Verdict::KnownOutside) {
         0 => String::new(),
         n => format!(", {n} outside for a known reason"),
     };
     let (n_within, n) = (number(Verdict::Within), all.len());
-    format!("{n_within} of {n} values within their tolerance{known}")
+    let evidence = evidence.in_words().map_or(String::new(), |words| format!("; {words}"));
+    format!("{n_within} of {n} values within their band{known}{evidence}")
 }
 
 impl Comparison {
-    /// Case, quantity, computed, reference, kind, difference, tolerance and verdict.
-    pub(super) fn cells(&self) -> [String; 8] {
+    /// Case, quantity, computed, reference, kind, difference, evidence, band and verdict.
+    pub(super) fn cells(&self) -> [String; 9] {
         let tolerance =
             self.reference.expected.relative.or(self.reference.expected.absolute).unwrap_or(0.0);
         [
@@ -90,6 +92,7 @@ impl Comparison {
             self.difference().map_or("-".to_owned(), |difference| {
                 format!("{}{}", if difference < 0.0 { "" } else { "+" }, self.share(difference))
             }),
+            self.evidence_in_words(),
             self.share(tolerance),
             self.verdict.name().to_owned(),
         ]
@@ -129,17 +132,31 @@ pub fn comparisons_to_json(comparisons: &[Comparison]) -> Value {
     };
     let counts: Map<String, Value> = counts(&judged(comparisons)).iter().map(of_kind).collect();
     let rows: Vec<Value> = comparisons.iter().map(Comparison::to_json).collect();
-    json!({ "counts": counts, "comparisons": rows })
+    let EvidenceCount { confirmed, consistent } = EvidenceCount::of(comparisons);
+    json!({
+        "counts": counts,
+        "evidence": { "confirmed": confirmed, "consistent": consistent },
+        "comparisons": rows,
+    })
 }
 
 /// The table, its header first, one line a comparison in their order.
 #[must_use]
 pub fn comparison_table(comparisons: &[Comparison]) -> Vec<String> {
-    let header =
-        ["case", "quantity", "computed", "reference", "kind", "difference", "tolerance", "verdict"];
+    let header = [
+        "case",
+        "quantity",
+        "computed",
+        "reference",
+        "kind",
+        "difference",
+        "evidence",
+        "band",
+        "verdict",
+    ];
     let mut rows = vec![header.map(ToOwned::to_owned).to_vec()];
     rows.extend(comparisons.iter().map(|row| row.cells().to_vec()));
-    aligned(&rows, &[2, 3, 5, 6])
+    aligned(&rows, &[2, 3, 5, 7])
 }
 
 /// Lines of cells in columns: words to the left, the columns of numbers to the right.
@@ -184,6 +201,7 @@ mod tests {
                 source: "somebody".to_owned(),
                 date: None,
                 outside: None,
+                cause: None,
                 note: None,
             },
         }
@@ -275,6 +293,6 @@ mod tests {
         assert_eq!(row(Err("it diverged".to_owned())).verdict, Verdict::NotComputed);
         let failures = Verdict::ALL.map(Verdict::is_failure);
         assert_eq!(failures, [false, false, true, true, true]);
-        assert!(summary(&[row(Ok(-2.5))]).ends_with("1 outside for a known reason"));
+        assert!(summary(&[row(Ok(-2.5))]).contains("1 outside for a known reason; of 1 with"));
     }
 }

@@ -1,6 +1,7 @@
 //! The section of a case on the page of a validation: set-up, meshes, values, sources, disagreements.
 
 use super::comparison::{Comparison, Verdict};
+use super::evidence::Evidence;
 use super::report::two_digits;
 use super::uncertainty::{Refinement, RunSize};
 use crate::case::{ReferenceKind, significant};
@@ -12,7 +13,7 @@ pub struct CaseReport {
     pub name: String,
     /// Its title.
     pub title: String,
-    /// The sentence that tells its set-up.
+    /// The sentence that says its set-up.
     pub gist: String,
     /// Its page and pictures.
     pub links: Links,
@@ -58,27 +59,61 @@ fn variant_of(name: &str) -> &str {
     name.split_once('/').map_or("", |(_, variant)| variant)
 }
 
-impl MemberReport {
-    /// The row of its mesh and its companion.
-    fn size_row(&self) -> String {
-        let mut cells = vec![variant_of(&self.name).to_owned()];
-        match &self.size {
-            Some(size) => cells.extend([
-                size.mesh.cells.to_string(),
-                size.dofs.to_string(),
-                significant(size.mesh.shortest_edge),
-                size.steps.to_string(),
-                format!("{:.2}", size.cpu_seconds),
-            ]),
-            None => cells.extend(["-"; 5].map(str::to_owned)),
-        }
-        cells.push(match &self.companion {
+/// The row of runs that have one mesh, number of steps and companion in common.
+struct SizeRow {
+    /// Cells, unknowns, shortest edge, steps, companion.
+    common: [String; 5],
+    variants: Vec<String>,
+    cpu_seconds: Vec<String>,
+}
+
+impl SizeRow {
+    fn from_member(member: &MemberReport) -> Self {
+        let companion = match &member.companion {
             None => "-".to_owned(),
             Some(Err(reason)) => format!("none: {}", in_a_cell(reason)),
             Some(Ok(companion)) => companion.in_words(),
-        });
-        row(&cells)
+        };
+        let none = || "-".to_owned();
+        let (common, cpu_seconds) = match &member.size {
+            Some(size) => {
+                let edge = significant(size.mesh.shortest_edge);
+                let [cells, steps] = [size.mesh.cells, size.steps].map(|n| n.to_string());
+                let common = [cells, size.dofs.to_string(), edge, steps, companion];
+                (common, format!("{:.2}", size.cpu_seconds))
+            }
+            None => ([none(), none(), none(), none(), companion], none()),
+        };
+        let variants = vec![variant_of(&member.name).to_owned()];
+        Self { common, variants, cpu_seconds: vec![cpu_seconds] }
     }
+
+    fn as_text(&self) -> String {
+        let named = |variant: &String| match variant.as_str() {
+            "" if self.variants.len() > 1 => "(itself)".to_owned(),
+            variant => variant.to_owned(),
+        };
+        let variants: Vec<String> = self.variants.iter().map(named).collect();
+        let [cells, unknowns, edge, steps, companion] = self.common.clone();
+        let cpu_seconds = self.cpu_seconds.join(", ");
+        row(&[variants.join(", "), cells, unknowns, edge, steps, cpu_seconds, companion])
+    }
+}
+
+/// The table of meshes, steps and companions.
+fn sizes(members: &[MemberReport]) -> String {
+    let mut rows: Vec<SizeRow> = Vec::new();
+    for one in members.iter().map(SizeRow::from_member) {
+        if let Some(row) = rows.iter_mut().find(|row| row.common == one.common) {
+            row.variants.extend(one.variants);
+            row.cpu_seconds.extend(one.cpu_seconds);
+        } else {
+            rows.push(one);
+        }
+    }
+    let header = "\n| variants | cells | unknowns | shortest edge | steps | CPU (s) | companion |\n\
+                  |---|---|---|---|---|---|---|\n";
+    header.to_owned() + &rows.iter().map(SizeRow::as_text).collect::<String>()
 }
 
 impl Companion {
@@ -99,6 +134,9 @@ fn in_a_cell(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
 }
 
+/// What is between a tolerance and the verdict, which most rows do without: they are within.
+pub(super) const VERDICT: &str = ": ";
+
 pub(super) fn row(cells: &[String]) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
@@ -114,18 +152,14 @@ pub(super) fn section(case: &CaseReport) -> String {
     let made_by = each_once(members.iter().map(|member| member.made_by.clone()));
     text += &format!("\nRuns by {}.\n", made_by.join("; "));
     if members.iter().any(|member| member.size.is_some()) {
-        text += "\n| variant | cells | unknowns | shortest edge | steps | CPU (s) | companion |\n\
-                 |---|---|---|---|---|---|---|\n";
-        for member in members {
-            text += &member.size_row();
-        }
+        text += &sizes(members);
     }
-    text += "\n| variant | quantity | computed | ± numerical | reference | kind | ± reference \
-             | difference | tolerance | verdict |\n\
-             |---|---|---|---|---|---|---|---|---|---|\n";
+    text += "\n| variant | quantity | computed | ± | reference | ± | kind | difference | evidence | band \
+             |\n|---|---|---|---|---|---|---|---|---|---|\n";
     for member in members {
-        for value in &member.comparisons {
-            text += &value_row(variant_of(&member.name), value);
+        for (index, value) in member.comparisons.iter().enumerate() {
+            let variant = if index == 0 { variant_of(&member.name) } else { "" };
+            text += &value_row(variant, value);
         }
     }
     let values: Vec<&Comparison> = members.iter().flat_map(|member| &member.comparisons).collect();
@@ -136,23 +170,27 @@ pub(super) fn section(case: &CaseReport) -> String {
 }
 
 fn value_row(variant: &str, value: &Comparison) -> String {
-    let [_, quantity, computed, reference, kind, difference, tolerance, verdict] = value.cells();
-    let numerical = value.numerical_share().map_or("-".to_owned(), |share| value.share(share));
-    let uncertainty =
-        value.reference.expected.uncertainty.map_or("-".to_owned(), |own| value.share(own));
-    let cells = [
+    let [_, quantity, computed, reference, kind, difference, evidence, band, verdict] =
+        value.cells();
+    let share = |own: Option<f64>| own.map_or("-".to_owned(), |own| value.share(own));
+    let numerical = share(value.numerical_share());
+    let uncertainty = share(value.reference_share());
+    let band = match value.verdict {
+        Verdict::Within => band,
+        _ => format!("{band}{VERDICT}{verdict}"),
+    };
+    row(&[
         variant.to_owned(),
         quantity,
         computed,
         numerical,
         reference,
-        kind,
         uncertainty,
+        kind,
         difference,
-        tolerance,
-        verdict,
-    ];
-    row(&cells)
+        evidence,
+        band,
+    ])
 }
 
 /// How often the numerical uncertainty covers what is wrong with a value, where that is known: a check of
@@ -216,6 +254,7 @@ fn reasons(members: &[MemberReport]) -> String {
     let mut lines = each_once(values().filter_map(|value| {
         Some(format!("Outside, known: {}.", value.reference.expected.outside.as_ref()?))
     }));
+    lines.extend(causes(members));
     let named = |value: &Comparison| {
         let variant = variant_of(&value.case);
         let between = if variant.is_empty() { "" } else { ", " };
@@ -237,19 +276,30 @@ fn reasons(members: &[MemberReport]) -> String {
     each_once(lines.into_iter()).iter().map(|line| format!("\n{line}\n")).collect()
 }
 
+/// Why values are only consistent with their references, a line for each cause.
+fn causes(members: &[MemberReport]) -> Vec<String> {
+    let values = members.iter().flat_map(|member| &member.comparisons);
+    let told = values.filter_map(|value| {
+        let cause = value.reference.expected.cause.as_ref()?;
+        let is_open = matches!(value.evidence(), Some(Evidence::Consistent(_)));
+        is_open.then(|| format!("Consistent, not confirmed: {cause}."))
+    });
+    each_once(told)
+}
+
 /// The values that are known to be outside, as lines of a list with the reason of each.
 pub(super) fn known_outside(case: &CaseReport) -> Vec<String> {
     let values = case.members.iter().flat_map(|member| &member.comparisons);
     let outside = values.filter(|value| value.verdict == Verdict::KnownOutside);
     let line = |value: &Comparison| {
-        let [case, quantity, computed, reference, _, difference, tolerance, _] = value.cells();
+        let [case, quantity, computed, reference, _, difference, _, band, _] = value.cells();
         let reason = value.reference.expected.outside.as_deref().unwrap_or_default();
         let numerical = value
             .numerical_uncertainty()
             .map_or(String::new(), |own| format!(" ± {}", two_digits(own)));
         format!(
             "- `{case}`, {quantity}: {computed}{numerical} for {reference} ({difference}, \
-             tolerance {tolerance}): {reason}."
+             band {band}): {reason}."
         )
     };
     outside.map(line).collect()

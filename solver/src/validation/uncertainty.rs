@@ -4,6 +4,8 @@
 //! of a companion `g`, whose cells and steps are `r` times as long, have the uncertainty
 //! `F |f - g| / (r^p - 1)`.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::comparison::Comparison;
@@ -21,6 +23,9 @@ const LEAST_RATIO: f64 = 1.1;
 /// The order that is taken for granted: velocities and pressures converge faster where flow and boundary are
 /// smooth, but not at edges, in thin gaps and with steps of second order.
 const ORDER: f64 = 2.0;
+
+/// The part of a value below which no uncertainty of it is taken to be: that two meshes agree better is chance.
+const LEAST_SHARE: f64 = 2e-5;
 
 /// The size of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -42,6 +47,13 @@ pub struct RunSize {
     pub steps: usize,
     /// CPU seconds.
     pub cpu_seconds: f64,
+}
+
+/// Why a companion of a case would not show what its mesh leaves, if so.
+#[must_use]
+pub fn no_companion(case: &Case) -> Option<&'static str> {
+    // The surface of a file has errors of its own, and each mesh is cut out of it
+    case.given_mesh().map(|_| "a mesh file gives its sides, which a companion would share")
 }
 
 /// Settings of the companion of a case, as on the command line.
@@ -120,9 +132,40 @@ pub fn set_uncertainties(
         let Ok(fine) = value.computed else { continue };
         value.numerical = Some(refinement.clone().and_then(|refinement| {
             let other = companion.get(index).ok_or("it has no such value")?;
-            Ok(refinement.uncertainty(fine, other.computed.clone()?))
+            let difference = refinement.uncertainty(fine, other.computed.clone()?);
+            Ok(difference.max(LEAST_SHARE * fine.abs()))
         }));
     }
+}
+
+/// Raises uncertainties of a case that are small by chance to the median of the same quantity, relative to the
+/// reference where the tolerance is.
+pub fn raise_coincidences<'a>(values: impl Iterator<Item = &'a mut Comparison>) {
+    let mut of_quantity: BTreeMap<(String, bool), Vec<&mut Comparison>> = BTreeMap::new();
+    for value in values.filter(|value| value.numerical_uncertainty().is_some()) {
+        let is_relative = value.reference.expected.relative.is_some();
+        of_quantity.entry((value.quantity.clone(), is_relative)).or_default().push(value);
+    }
+    for values in of_quantity.values_mut() {
+        let shares = values.iter().filter_map(|value| value.numerical_share()).collect();
+        let Some(least) = median(shares) else { continue };
+        for value in values.iter_mut() {
+            let scale = match value.reference.expected.relative {
+                Some(_) => value.reference.expected.value.abs(),
+                None => 1.0,
+            };
+            let raised = value.numerical_uncertainty().map(|own| own.max(least * scale));
+            value.numerical = raised.map(Ok);
+        }
+    }
+}
+
+/// The value in the middle, or half way between the two there.
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let above = *values.get(values.len() / 2)?;
+    let below = *values.get(values.len().checked_sub(1)? / 2)?;
+    Some(0.5 * (below + above))
 }
 
 #[cfg(test)]
@@ -199,6 +242,40 @@ mod tests {
         same.mesh.scale = fine.mesh.scale;
         same.time = fine.time.clone();
         assert!(Model::new(same).unwrap().case == fine);
+    }
+
+    #[test]
+    fn values_that_agree_by_chance_keep_an_uncertainty() {
+        let reference: Reference = case("dfg-2d-1", &[]).reference.remove(0);
+        let value = |computed: f64| judge("c", &reference, Ok(computed), 1, 0.0);
+        let refinement = Ok(Refinement { ratio: 2.0, order: 1.0 });
+        let of = |fine: f64, coarse: f64| {
+            let mut values = [value(fine)];
+            set_uncertainties(&mut values, &[value(coarse)], &refinement);
+            values[0].clone()
+        };
+        let told = |value: &Comparison| value.numerical_uncertainty().unwrap();
+        assert!((told(&of(5.5, 5.5)) / (LEAST_SHARE * 5.5) - 1.0).abs() < 1e-12);
+        let mut values = [of(5.5, 5.5), of(5.5, 5.4), of(5.5, 5.3)];
+        raise_coincidences(values.iter_mut());
+        let raised = values.each_ref().map(told);
+        assert!((raised[0] - 0.3).abs() < 1e-9 && (raised[1] - 0.3).abs() < 1e-9, "{raised:?}");
+        assert!((raised[2] - 0.6).abs() < 1e-9, "{raised:?}");
+        // What is not known stays so, and other quantities are not asked
+        let mut other = of(5.5, 5.5);
+        other.quantity = "cylinder.force.y".to_owned();
+        let mut values = [value(5.5), other, of(5.5, 5.4)];
+        raise_coincidences(values.iter_mut());
+        assert_eq!(values[0].numerical, None);
+        assert!(told(&values[1]) < 2e-4, "{:?}", values[1].numerical);
+        assert_eq!(median(vec![]), None);
+    }
+
+    #[test]
+    fn a_mesh_file_has_no_companion() {
+        assert!(no_companion(&case("sphere-in-oblique-tube-3d", &[])).is_some());
+        assert!(no_companion(&case("vessel", &[])).is_some());
+        assert!(no_companion(&case("sphere-in-tube-3d", &[])).is_none());
     }
 
     #[test]

@@ -11,6 +11,7 @@ mod shell;
 mod skin;
 mod stopping;
 mod sweep_kills;
+mod sweep_races;
 mod sweeps;
 mod validating;
 mod warnings;

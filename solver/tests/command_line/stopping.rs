@@ -46,8 +46,8 @@ fn checkpoints(run: &Path) -> Vec<String> {
 fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
     let directory = tempfile::tempdir().unwrap();
     let told = stopped_fall(directory.path());
-    let command = " run sphere-free-fall --out fall --quiet --threads 1 --set \
-                   time.unsteady.end=1e6 --set mesh.scale=2";
+    let command = " run sphere-free-fall --set time.unsteady.end=1e6 --set mesh.scale=2 --out fall \
+                   --threads 1 --quiet";
     assert!(told.contains(command), "{told}");
     let out = directory.path().join("fall");
     let status = std::fs::read_to_string(out.join("status.json")).unwrap();
@@ -285,4 +285,48 @@ fn a_run_whose_directory_vanishes_ends_with_its_name() {
     let told = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(74), "{told}");
     assert!(told.contains("fall/status.json: "), "{told}");
+}
+
+/// Longest time from a signal to the end of a process, which is asked for; a loaded machine takes its own.
+const SOON: std::time::Duration = std::time::Duration::from_secs(10);
+
+#[test]
+fn a_signal_is_heard_while_a_mesh_is_made() {
+    let directory = tempfile::tempdir().unwrap();
+    // Minutes of meshing
+    let space = "geometry = 'spatial'\ndomain.sphere = { center = [0, 0, 0], radius = 8.0 }\n\
+                 boundary.wall = 'no-slip'\nmesh = { size = 0.35, surface = 0.05, growth = 0.1 }\n\
+                 [[body]]\nname = 'a'\nshape.sphere.radius = 1.0\ncenter = [0, 0, 0]\nmotion = 'held'\n";
+    let plane = "geometry = 'planar'\ndomain.disc = { center = [0, 0], radius = 8.0 }\n\
+                 boundary.wall = 'no-slip'\nmesh = { size = 0.02, surface = 0.02 }\n\
+                 [[body]]\nname = 'a'\nshape.disc.radius = 1.0\ncenter = [0, 0]\nmotion = 'held'\n";
+    for (name, text) in [("space", space), ("plane", plane)] {
+        let head =
+            "title = 't'\nfluid = { model = 'stokes', viscosity = 1.0 }\ntime = { steady = {} }\n";
+        std::fs::write(directory.path().join("large.toml"), format!("{head}{text}")).unwrap();
+        let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
+            .args(["run", "large.toml", "--out", name, "--quiet", "--threads", "1"])
+            .current_dir(directory.path())
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        while !directory.path().join(name).join("status.json").is_file() {
+            if run.try_wait().unwrap().is_some() {
+                let output = run.wait_with_output().unwrap();
+                panic!("{name}: {}", String::from_utf8_lossy(&output.stderr));
+            }
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        let kill = ["-s", "TERM", &run.id().to_string()];
+        assert!(Command::new("kill").args(kill).status().unwrap().success());
+        let sent = std::time::Instant::now();
+        let output = run.wait_with_output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(75), "{name}: {told}");
+        assert!(sent.elapsed() < SOON, "{name}: {:?}", sent.elapsed());
+        let status = std::fs::read_to_string(directory.path().join(name).join("status.json"));
+        assert!(status.unwrap().contains("\"stopped\""), "{name}");
+    }
 }

@@ -31,6 +31,65 @@ fn steps_too_long_for_extrapolated_convection_are_told() {
     assert!(!run("time.unsteady.convection=\"newton\"").contains("CFL"));
 }
 
+/// Whoever does not look at the terminal is told, too.
+#[test]
+fn warnings_of_case_and_run_are_in_the_status_and_the_last_lines() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut command = vec!["run", "dfg-2d-2", "--out", "r", "--threads", "1", "--quiet"];
+    for setting in [
+        "mesh.scale=4",
+        "time.unsteady.step=0.1",
+        "time.unsteady.end=0.3",
+        "reference=[]",
+        "statistics={ window = [0.2, 0.6] }",
+    ] {
+        command.extend(["--set", setting]);
+    }
+    let output = alewife(directory.path(), &command);
+    assert_eq!(output.status.code(), Some(0));
+    let [said, told] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    let status = std::fs::read_to_string(directory.path().join("r/status.json")).unwrap();
+    let status: serde_json::Value = serde_json::from_str(&status).unwrap();
+    let warnings = status["warnings"].as_array().unwrap();
+    let found = |words: &str| {
+        let is_it = |one: &&serde_json::Value| one["message"].as_str().unwrap().contains(words);
+        warnings.iter().find(is_it).unwrap_or_else(|| panic!("no {words}: {status:#}"))
+    };
+    let (of_case, of_run) = (found("the run ends at 0.3"), found("CFL number"));
+    assert!(of_case["time"].is_null() && of_case["count"] == 1, "{of_case}");
+    assert!(of_run["time"].as_f64().unwrap() > 0.0 && of_run["count"] == 1, "{of_run}");
+    assert!(!told.contains("CFL number"), "{told}");
+    assert!(said.contains(&format!("\n{} warnings, in status.json", warnings.len())), "{said}");
+    assert!(said.contains("CFL number") && said.contains("the run ends at 0.3"), "{said}");
+    let shown = alewife(directory.path(), &["status", "r"]).stdout;
+    let shown = String::from_utf8_lossy(&shown);
+    assert_eq!(shown.matches("  warning: ").count(), warnings.len(), "{shown}");
+}
+
+#[test]
+fn check_warns_of_steps_in_which_fluid_crosses_several_cells() {
+    let directory = tempfile::tempdir().unwrap();
+    let told = |settings: &[&str]| {
+        let mut command = vec!["check", "dfg-2d-2", "--no-step", "--set", "mesh.scale=4"];
+        settings.iter().for_each(|setting| command.extend(["--set", setting]));
+        let output = alewife(directory.path(), &command);
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let long = "time.unsteady.step=0.1";
+    let warned = told(&[long, "time.unsteady.convection=\"extrapolated\""]);
+    assert!(
+        warned.contains("the CFL number is up to") && warned.contains("hold up to 5"),
+        "{warned}"
+    );
+    let warned = told(&[long, "time.unsteady.convection=\"newton\""]);
+    assert!(warned.contains("what changes within a step is not resolved"), "{warned}");
+    for fine in ["time.unsteady.step=0.005", "fluid.model=\"unsteady-stokes\""] {
+        assert!(!told(&[long, fine]).contains("CFL number"), "{fine}");
+    }
+    assert!(!told(&[long, "time.unsteady.adaptive={}"]).contains("CFL number"));
+}
+
 /// Three links above a wall, their joints bent in quadrature, at steps of a size.
 const THREE_LINKS: &str = r#"
 title = "three links above a wall"

@@ -49,9 +49,9 @@ fn loads_that_nothing_balances_are_refused_with_their_sum() {
 fn what_can_only_be_an_oversight_is_warned_of() {
     let weight = BOX.replace("1.0 }\n", "1.0, gravity = [0.0, -1.0] }\n");
     for (text, told, is_told) in [
-        (discs(BOX, ""), "nothing moves", true),
-        (discs(BOX, "force = [0.1, 0.0]"), "nothing moves", false),
-        (discs(BOX, "torque = 0.1"), "nothing moves", false),
+        (discs(BOX, ""), "nothing drives this case", true),
+        (discs(BOX, "force = [0.1, 0.0]"), "nothing drives this case", false),
+        (discs(BOX, "torque = 0.1"), "nothing drives this case", false),
         (discs(&weight, "density = 2.0"), "nothing is buoyant", true),
         (
             discs(&weight.replace("1.0, g", "1.0, density = 1.0, g"), "density = 2.0"),

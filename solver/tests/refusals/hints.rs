@@ -95,6 +95,27 @@ fn columns_between_semicolons_are_told() {
 }
 
 #[test]
+fn rows_that_are_longer_or_shorter_than_the_header_are_refused_where_they_stand() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = "{ file = { path = \"a.csv\", time = \"t\", column = \"x\" } }";
+    let text = ROW.replace("{ constant = 1.0 }", file);
+    std::fs::write(directory.path().join("row.toml"), text).unwrap();
+    let check = |rows: &str| {
+        std::fs::write(directory.path().join("a.csv"), rows).unwrap();
+        alewife(directory.path(), &["check", "--no-mesh", "row.toml"])
+    };
+    let long = check("t,x\n0.0,1.0\n# angle\n1,1,5\n9,1.0\n");
+    let place = "a.csv:4:1";
+    assert_refused(&long, &["this row has 3 cells, and the header has 2", place, "decimal point"]);
+    let short = check("t,x,y\n0.0,1.0,2.0\n1.0,1.1\n");
+    assert_refused(&short, &["this row has 2 cells, and the header has 3", "a.csv:3:1"]);
+    // The same in columns that are not read
+    let other = check("t,x,y\n0.0,1.0,1,5\n9.0,1.0,1\n");
+    assert_refused(&other, &["this row has 4 cells, and the header has 3", "a.csv:2:1"]);
+    assert_eq!(check("t,x\n0.0,1.0\n\n 9.0 , 1.1 \n").code, 0);
+}
+
+#[test]
 fn paths_that_lead_to_no_case_or_no_run_say_so() {
     let directory = tempfile::tempdir().unwrap();
     let run = |arguments: &[&str]| -> Said { alewife(directory.path(), arguments) };

@@ -44,13 +44,38 @@ fn a_reference_says_what_kind_of_evidence_it_is() {
     refused(kind, "", &["missing key `kind`", "wrong.toml:43:", "measured, literature, exact"]);
     refused(kind, "kind = \"exakt\"", &["did you mean `exact`?", "wrong.toml:47:8"]);
     refused(kind, "kind = \"regression\"", &["add uncertainty = ...", "add date = "]);
-    let regression = "kind = \"regression\"\ndate = \"2026-11-21\"\nuncertainty = 0.01";
+    let regression = "kind = \"regression\"\ndate = \"2026-11-21\"\nuncertainty = \"1 %\"";
     assert_accepted(&check(&RIGHT.replace(kind, regression), &[]));
-    refused(kind, &regression.replace("0.01", "0.06"), &["not within 0 and the tolerance 0.05"]);
+    refused(
+        kind,
+        &regression.replace("1 %", "6 %"),
+        &["6 % is not within 0 and the tolerance 5 %"],
+    );
     refused(kind, &regression.replace("2026-11-21", "21.11.2026"), &["is no date"]);
     refused(kind, &regression.replace("2026-11-21", "2026-13-21"), &["is no date"]);
     refused(kind, &format!("{kind}\ndate = \"2026-11-21\""), &["\"regression\" only"]);
     refused(kind, &format!("{kind}\noutside = \"\""), &["known to be outside is empty"]);
+}
+
+#[test]
+fn an_uncertainty_can_be_read_in_one_way_only() {
+    let relative = "relative = 0.05";
+    let absolute = "absolute = 0.05";
+    for (lines, accepted) in [(relative, "\"1 %\""), (absolute, "0.01"), (absolute, "\"0.1 %\"")] {
+        let text = RIGHT.replace(relative, &format!("{lines}\nuncertainty = {accepted}"));
+        assert_accepted(&check(&text, &[]));
+    }
+    let wrong = |lines: &str, uncertainty: &str, wanted: &[&str]| {
+        refused(relative, &format!("{lines}\nuncertainty = {uncertainty}"), wanted);
+    };
+    // What it was read as before, and what it may be meant as
+    wrong(relative, "0.01", &["plain number beside `relative`", "\"1 %\" if it is relative"]);
+    wrong(relative, "1", &["plain number beside `relative`", "is in its unit"]);
+    wrong(relative, "\"1\"", &["a text such as \"0.5 %\" of it"]);
+    wrong(relative, "\"1 percent\"", &["a text such as \"0.5 %\" of it"]);
+    wrong(relative, "\"-1 %\"", &["is not within 0"]);
+    wrong(absolute, "0.06", &["0.06 is not within 0 and the tolerance 0.05"]);
+    wrong(absolute, "\"50 %\"", &["50 % is not within 0 and the tolerance 0.05"]);
 }
 
 #[test]

@@ -249,8 +249,11 @@ fn copies_that_are_wrong_in_the_same_way_are_not_told_of_one_by_one() {
     let text = SWIMMING.replacen("name = \"chain\"", copies, 1);
     let said = check(&text, &["--set", "mesh.surface=1.0"]);
     assert_refused(&said, &["must not be negative"]);
-    assert_eq!(said.stderr.matches("must not be negative").count(), 3, "{}", said.stderr);
+    assert_eq!(said.stderr.matches("must not be negative").count(), 1, "{}", said.stderr);
     assert_eq!(said.stderr.matches("outline of \"chain").count(), 1, "{}", said.stderr);
+    let far = text.replace("spacing = [1.5, 1.5]", "spacing = [900.0, 900.0]");
+    let said = check(&far.replace("density = -1.0", ""), &["--set", "mesh.surface=0.1"]);
+    assert_eq!(said.stderr.matches("leaves the domain").count(), 3, "{}", said.stderr);
 }
 
 #[test]

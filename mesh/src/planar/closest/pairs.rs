@@ -3,7 +3,7 @@
 //! A feature is a pair of points p, q of the two curves whose tangents are opposite and
 //! perpendicular to p - q. With n the normal of the second curve, g = (p - q) . n its gap and k the
 //! curvatures, it is a minimum of the distance where D = k1 + k2 + g k1 k2 > 0. This form stays
-//! regular as g goes through zero, which |p - q| does not, and goes on into shallow overlaps.
+//! regular as g goes through zero, which |p - q| does not, and continues into shallow overlaps.
 //!
 //! None is missed: pairs of stretches are given up only when bounds show that they are too far
 //! apart, that no tangents are opposite, that p - q is nowhere perpendicular to them, or that

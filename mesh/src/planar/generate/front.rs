@@ -8,7 +8,7 @@ use super::point_tree::PointTree;
 use crate::number::index_u32;
 use crate::planar::torus::Torus;
 use crate::planar::vector::cross;
-use crate::{MeshError, Point, SizeField};
+use crate::{MeshError, Point, SizeField, interrupt};
 
 /// Largest number of interior points.
 const MOST_POINTS: usize = 10_000_000;
@@ -60,6 +60,9 @@ pub fn advance_front(
     let growth = sizes.growth();
     let surely_taken = (CLEARANCE * (1.0 - growth) - 0.5 * growth).max(0.2);
     while let Some((from, h, direction)) = front.waiting.pop_front() {
+        if interrupt::is_requested() {
+            return Err(MeshError::Stopped);
+        }
         for k in 0..6 {
             let (sin, cos) = (FRAC_PI_3 * f64::from(k)).sin_cos();
             let way = Point::<2>::new(

@@ -6,6 +6,7 @@
 use super::relax::{flip_all, flip_from, raise_worst, smooth_all};
 use super::trial::try_moves;
 use super::triangulation::{Corner, Triangulation, WALL};
+use crate::interrupt;
 use crate::mesh::jacobian_coefficients;
 use crate::planar::boundary::BoundaryLoops;
 use crate::planar::vector::cross;
@@ -41,6 +42,9 @@ pub fn improve(mesh: &mut Triangulation, border: &BoundaryLoops, is_curved: bool
         flip_all(mesh);
     }
     for _ in 0..2 {
+        if interrupt::check().is_err() {
+            return;
+        }
         fit_edges(mesh);
         flip_all(mesh);
         for _ in 0..2 {
@@ -50,7 +54,7 @@ pub fn improve(mesh: &mut Triangulation, border: &BoundaryLoops, is_curved: bool
     }
     repair(mesh);
     for _ in 0..ROUNDS {
-        if !try_moves(mesh) {
+        if interrupt::check().is_err() || !try_moves(mesh) {
             break;
         }
         repair(mesh);

@@ -22,7 +22,7 @@ use mirror::Mirror;
 
 use crate::planar::boundary::BoundaryLoops;
 use crate::planar::placement::{place, place_wrapped};
-use crate::{Domain, Mesh, MeshError, Outline, PlacedShape, Quality, SizeField, Sizing};
+use crate::{Domain, Mesh, MeshError, Outline, PlacedShape, Quality, SizeField, Sizing, interrupt};
 
 /// A mesh made by reflection is taken unless an angle is below this (degrees), as where the line of
 /// symmetry passes a narrow place.
@@ -129,6 +129,8 @@ fn fill(border: &BoundaryLoops, sizes: &SizeField, is_curved: bool) -> Result<Me
     let boundary = BoundaryEdges::new(border, sizes)?;
     let interior = front::advance_front(&boundary, sizes, border.torus)?;
     let mut triangles = delaunay::triangulate(&boundary, &interior, sizes, border.torus)?;
+    interrupt::check()?;
     improve::improve(&mut triangles, border, is_curved);
+    interrupt::check()?;
     quadratic::finish(triangles, border, &boundary.periodic, is_curved)
 }

@@ -106,7 +106,7 @@ impl Outline {
     }
 
     /// The same outline with its origin at `center` (m) and turned by `angle` (rad) from its own
-    /// frame; nothing is computed anew.
+    /// frame; nothing is computed again.
     #[must_use]
     pub fn placed_at(&self, center: Point<2>, angle: f64) -> Self {
         let form = Arc::clone(&self.form);

@@ -26,7 +26,7 @@ pub fn spread(pieces: &[Piece], index: usize, longest: f64) -> Vec<f64> {
     let n = 2000;
     let length = |from: f64, to: f64| integrate(from, to, |x| piece.at(x)[1].norm());
     let jump = |end: f64, neighbour: Option<&Piece>, at: f64| {
-        // At the ends of the body the outline goes on with the same curvature
+        // At the ends of the body the outline continues with the same curvature
         let jump =
             neighbour.map_or(0.0, |other| (other.curvature(at) - piece.curvature(end)).abs());
         let width = piece.at(end)[0].y;

@@ -4,7 +4,7 @@ use std::collections::BinaryHeap;
 
 use super::improve::{Improver, Split};
 use super::tetrahedra::measure::{EDGES, middle};
-use crate::{MeshError, Point};
+use crate::{MeshError, Point, interrupt};
 
 /// Edges longer than this many wanted lengths are split.
 const LONGEST: f64 = 1.7;
@@ -52,6 +52,9 @@ impl Improver<'_> {
             heap.extend(above.filter_map(|other| self.long_edge([vertex, *other])));
         }
         while let Some(top) = heap.pop() {
+            if interrupt::is_requested() {
+                return Err(MeshError::Stopped);
+            }
             self.mesh.shell(top.ends[0], top.ends[1], &mut shell);
             if shell.is_empty() {
                 continue;

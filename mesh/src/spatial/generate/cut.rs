@@ -7,7 +7,7 @@ use super::tetrahedra::Face;
 use super::tetrahedra::boundary_edges::tag_of;
 use super::tetrahedra::measure::{FACES, middle};
 use super::tetrahedra::surface_set::SurfaceSet;
-use crate::{MeshError, Point};
+use crate::{MeshError, Point, interrupt};
 
 /// Vertices are moved along an edge onto a surface that cuts it nearer than this part of its length.
 const NEAR: f64 = 0.35;
@@ -53,7 +53,9 @@ impl Improver<'_> {
         let gaps = self.gaps_to(usize::from(index));
         let mut cut = Cut { improver: &mut *self, index, gaps, tolerance };
         cut.move_vertices();
+        interrupt::check()?;
         cut.split_edges();
+        interrupt::check()?;
         // Only a part of a body can be hidden, in another part
         if cut.drop_cells() == 0 && !self.geometry.has_creases() {
             let at = surface.origin().into();
@@ -160,6 +162,9 @@ impl Cut<'_, '_> {
     fn move_vertices(&mut self) {
         let mut neighbours = Vec::new();
         for Candidate { vertex, .. } in self.candidates() {
+            if interrupt::is_requested() {
+                return;
+            }
             self.improver.mesh.neighbours(vertex, &mut neighbours);
             let gap = self.gap(vertex);
             // Its neighbours may have been moved since
@@ -203,6 +208,9 @@ impl Cut<'_, '_> {
     fn split_edges(&mut self) {
         let mut shell = Vec::new();
         for ends in self.cut_edges() {
+            if interrupt::is_requested() {
+                return;
+            }
             self.improver.mesh.shell(ends[0], ends[1], &mut shell);
             let part = self.crossing(ends).clamp(1e-3, 1.0 - 1e-3);
             let [a, b] = self.improver.mesh.corners(ends);
@@ -296,6 +304,9 @@ impl Improver<'_> {
     /// Moves vertices off their surfaces onto them where their cells stay good.
     pub fn pull_vertices(&mut self) {
         for vertex in 0..self.mesh.end_of_vertices() {
+            if interrupt::is_requested() {
+                return;
+            }
             let surfaces = self.mesh.surfaces(vertex);
             let is_settled = surfaces.is_empty() || self.is_fixed(surfaces);
             if is_settled || self.mesh.around(vertex).is_empty() {

@@ -86,7 +86,7 @@ impl Improver<'_> {
     }
 
     /// Fills a box with a lattice of cubes of about an edge length (m). Sides are faces of cubes; along
-    /// periods the lattice is moved by a part of them, and goes on.
+    /// periods the lattice is moved by a part of them, and continues.
     pub fn fill_box_with_lattice(&mut self, edge: f64, shift: f64) {
         let [min, max] = self.geometry.corners;
         let size = max - min;

@@ -18,7 +18,7 @@ use improve::{Improver, Verdict};
 use super::domain::Domain;
 use super::shape::Body;
 use super::size_field::SizeField;
-use crate::{Mesh, MeshError, Sizing};
+use crate::{Mesh, MeshError, Sizing, interrupt};
 
 /// Edge of the cubes of the lattice over the largest size wanted.
 const CUBE: f64 = 1.3;
@@ -108,14 +108,17 @@ fn attempt(sizes: &SizeField, shift: f64, part: f64) -> Result<Improver<'_>, Mes
         improver.fill_with_lattice(cube, shift);
     }
     let shorter = if sizes.geometry().imported.is_some() { shift - SHIFTS[0] } else { 0.0 };
+    interrupt::check()?;
     improver.refine_lattice(part * (1.0 - shorter))?;
     for index in first..sizes.geometry().surfaces.len() {
         let index = u16::try_from(index).map_err(|_| too_many_surfaces(sizes))?;
         improver.cut(index)?;
     }
     improver.settle_boundary();
+    interrupt::check()?;
     improver.improve();
     improver.pull_vertices();
+    interrupt::check()?;
     Ok(improver)
 }
 

@@ -6,6 +6,7 @@ use super::tetrahedra::boundary_edges::{INNER, surface_of};
 use super::tetrahedra::measure::middle;
 use super::tetrahedra::surface_set::SurfaceSet;
 use crate::Point;
+use crate::interrupt;
 
 /// Twice the area over the sum of squared edges that a face has at least; 0.29 when regular.
 const LEAST_SHAPE: f64 = 0.06;
@@ -99,6 +100,9 @@ impl Improver<'_> {
     pub fn split_faces_off_surface(&mut self) -> usize {
         let mut faces = Vec::new();
         for cell in self.mesh.cells() {
+            if interrupt::is_requested() {
+                return 0;
+            }
             for (opposite, tag) in self.mesh.tags(cell).into_iter().enumerate() {
                 if tag != INNER && self.has_curved(SurfaceSet::of(surface_of(tag))) {
                     let vertices = self.mesh.face_vertices(Face { cell, opposite });
@@ -116,6 +120,7 @@ impl Improver<'_> {
             let is_still = sides.iter().all(|[a, b]| !mesh.edge_surfaces(*a, *b).is_empty());
             is_still && sides.into_iter().any(|ends| improver.split_in_two(ends))
         };
-        faces.into_iter().filter(|face| is_split(self, *face)).count()
+        let faces = faces.into_iter().take_while(|_| !interrupt::is_requested());
+        faces.filter(|face| is_split(self, *face)).count()
     }
 }

@@ -81,7 +81,7 @@ impl Facets {
             let height = way.dot(&patch.inward(on.place));
             let is_better = nearest.is_none_or(|known| {
                 let is_tie = (distance - known.distance).abs() <= TIE * known.distance;
-                // Of those that meet in an edge the one it stands out from more tells the side
+                // Of those that meet in an edge the one it stands out from more shows the side
                 if is_tie { height.abs() > known.height.abs() } else { distance < known.distance }
             });
             if is_better {

@@ -79,7 +79,7 @@ pub struct SmoothSurface {
     pub turn: f64,
     /// Whether it is a plane of symmetry, which is no wall.
     pub is_symmetry: bool,
-    /// Whether it is one of a pair of periodic sides, where the fluid goes on.
+    /// Whether it is one of a pair of periodic sides, where the fluid continues.
     pub is_periodic: bool,
     /// Places on it where it bends more than around them, with the edge lengths wanted there.
     pub bends: Vec<Bend>,

@@ -32,7 +32,7 @@ const FLAT: f64 = 1e-10;
 const OFF_ENDS: f64 = 1e-9;
 
 /// Part of the slope of the width at an end down to which a place belongs to the end, where places are
-/// told by plane coordinates about it.
+/// given by plane coordinates about it.
 const CAP: f64 = 0.7;
 
 /// A body of elliptic sections.

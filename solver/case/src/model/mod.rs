@@ -2,7 +2,9 @@
 
 pub(crate) mod balls;
 pub(crate) mod copies;
+pub(crate) mod derived_number;
 mod geometry;
+pub(crate) mod impact;
 pub(crate) mod numbers;
 mod part_pose;
 mod parts;

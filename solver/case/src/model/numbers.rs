@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use alewife_mesh::{Point, whole};
 
 use super::balls::{Ball, BallGrid};
+use super::derived_number::DerivedNumber;
+use super::impact::numbers_of_impact;
 use crate::text::diagnostic::printable;
 use crate::{
     Body, Case, ContactSpec, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait,
@@ -29,17 +31,6 @@ pub fn reynolds(case: &Case) -> Option<f64> {
 pub fn density_ratio(model: &Model) -> Option<f64> {
     let (case, body) = (&model.case, model.bodies.first()?);
     (case.fluid.density > 0.0).then(|| body.density.map_or(1.0, |own| own / case.fluid.density))
-}
-
-/// A number that follows from a case.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DerivedNumber {
-    /// What it is called.
-    pub name: String,
-    /// Its value.
-    pub value: f64,
-    /// What it is made of.
-    pub formula: String,
 }
 
 /// All numbers that can be derived from a case, in the order in which they are printed.
@@ -68,6 +59,7 @@ pub fn derived_numbers(model: &Model) -> Vec<DerivedNumber> {
                        leaves half of `range` as gap";
         table.add(name, value, formula);
     }
+    table.0.extend(numbers_of_impact(model));
     table.0
 }
 

@@ -6,21 +6,6 @@ use crate::spec::extent::Extent;
 use crate::spec::mesh_file::MeshFile;
 use crate::{BoundaryCondition, Case, DomainSpec, Geometry};
 
-impl DomainSpec {
-    /// Geometries the domain can be that of.
-    #[must_use]
-    pub fn geometries(&self) -> &'static [Geometry] {
-        match self {
-            Self::Box { .. } => &[Geometry::Planar, Geometry::Spatial],
-            Self::Channel { .. } | Self::Disc { .. } => &[Geometry::Planar],
-            Self::HalfDisc { .. } => &[Geometry::Axisymmetric],
-            Self::Cylinder { .. } => &[Geometry::Axisymmetric, Geometry::Spatial],
-            Self::Sphere { .. } => &[Geometry::Spatial],
-            Self::Mesh(_) => &[Geometry::Planar, Geometry::Spatial],
-        }
-    }
-}
-
 /// The axis that a straight side is normal to.
 #[must_use]
 pub fn normal_axis(side: &str) -> Option<usize> {

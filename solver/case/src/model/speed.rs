@@ -36,20 +36,6 @@ impl Model {
         Some(all.fold(0.0, f64::max)).filter(|speed| *speed > 0.0)
     }
 
-    /// Whether nothing in a case drives anything.
-    #[must_use]
-    pub fn is_at_rest(&self) -> bool {
-        let is_driven = |body: &Body| !body.torque.is_zero() || body.spring.is_some();
-        let is_loose = |joint: &Joint| {
-            matches!(joint.kind, JointKind::Hinge(_) | JointKind::Slider(_) | JointKind::Ball(_))
-        };
-        self.expected_speed().is_none()
-            && self.case.flow.is_none()
-            && !self.case.has_waving_sheet()
-            && !self.bodies.iter().any(is_driven)
-            && !self.joints.iter().any(is_loose)
-    }
-
     /// The order of the rate at which forces change the length of an arm (m/s): by the resistance of its
     /// child; 0 of other joints.
     fn slider_speed(&self, joint: &Joint) -> f64 {
@@ -164,7 +150,7 @@ pub(crate) fn load_in_space(case: &Case, body: &Body) -> [f64; 3] {
 }
 
 /// The order of the speed of a body under its load: that of slow flow, or less by inertia (m/s).
-fn terminal_speed(case: &Case, body: &Body) -> f64 {
+pub(crate) fn terminal_speed(case: &Case, body: &Body) -> f64 {
     let load = load(case, body);
     let slow = load / resistance(case, body);
     let area = match case.geometry {

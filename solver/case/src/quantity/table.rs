@@ -162,6 +162,11 @@ quantities! {
             "Impulse of the forces less the change of momentum, summed over the fluid and each free \
              body without joint or spring, over the momentum exchanged by sides and bodies since the \
              twentieth row: the error of the balance of momentum; NaN while that is too little to tell";
+        ContactEnergy: Scalar, "contact_energy", "J (J/m)", [Contact],
+            "Energy stored in contact: what bodies get back of their kinetic energy";
+        ContactEnergyMade: Scalar, "contact_energy_made", "J (J/m)", [Contact],
+            "Energy that errors of the steps have made in contact since the start, negative where they have lost it; \
+             0 in `stokes`";
         PressureGradient: Vector, "pressure_gradient", "Pa/m", [MeanFlow],
             "Mean pressure gradient, given or what brings a mean velocity about";
         MeanVelocity: Vector, "mean_velocity", "m/s", [MeanFlow],

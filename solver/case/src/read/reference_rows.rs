@@ -17,11 +17,14 @@ pub const REFERENCES: &str = "references";
 pub const VARIANT: &str = "variant";
 
 /// Columns of texts: keys of `[[reference]]`.
-const TEXTS: [&str; 9] =
-    ["quantity", "minus", "statistic", "of", "kind", "source", "date", "outside", "note"];
+const TEXTS: [&str; 10] =
+    ["quantity", "minus", "statistic", "of", "kind", "source", "date", "outside", "cause", "note"];
 
 /// Columns of numbers: keys of `[[reference]]`.
-const NUMBERS: [&str; 7] = ["at", "level", "value", "per", "relative", "absolute", "uncertainty"];
+const NUMBERS: [&str; 6] = ["at", "level", "value", "per", "relative", "absolute"];
+
+/// The column of numbers, or of texts with the unit they have: per cent.
+const UNCERTAINTY: &str = "uncertainty";
 
 /// Columns that no table does without.
 const NEEDED: [&str; 4] = ["quantity", "value", "kind", "source"];
@@ -130,7 +133,8 @@ impl Table {
             self.refuse(line, one.span.clone(), message, help);
             return names;
         }
-        let known: Vec<&str> = [VARIANT].into_iter().chain(TEXTS).chain(NUMBERS).collect();
+        let known: Vec<&str> =
+            [VARIANT, UNCERTAINTY].into_iter().chain(TEXTS).chain(NUMBERS).collect();
         for Cell { text, span } in cells {
             if !known.contains(&text.as_str()) {
                 let message = format!("there is no column `{text}` of references");
@@ -192,7 +196,9 @@ impl Table {
                     }
                 }
             } else {
-                entries.insert(name.clone(), self.node(line, span, TomlValue::String(text)));
+                let number = text.parse().ok().filter(|_| name == UNCERTAINTY);
+                let value = number.map_or(TomlValue::String(text), TomlValue::Float);
+                entries.insert(name.clone(), self.node(line, span, value));
             }
         }
         let whole = 0..line.text.trim_end().len();
@@ -232,8 +238,8 @@ fn what_it_holds(name: &str) -> &'static str {
         "quantity" => "name what is compared, a column of series.csv",
         "value" => "write the value it is compared with",
         "kind" => {
-            "say of which kind it is: measured, literature, exact, independent, property, \
-                   regression"
+            "say of which kind it is: measured, literature, exact, independent, approximate, \
+                   internal, property, regression"
         }
         _ => "say who published the value and where, or how it follows",
     }

@@ -1,4 +1,4 @@
-//! `[references]`: references as rows of a table, and texts of sources by short names.
+//! `[references]`: references as rows of a table, and texts of sources and causes by short names.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ const REFERENCE: &str = "reference";
 /// Most diagnostics listed at once.
 const MOST_DIAGNOSTICS: usize = 20;
 
-/// `[references]`: references as a table with a row for each, and sources by short names.
+/// `[references]`: references as a table with a row for each, sources and causes by short names.
 #[derive(Debug, Default, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -31,6 +31,9 @@ pub struct ReferenceTable {
     /// Texts of sources by names without spaces, which may stand for them.
     #[serde(default)]
     pub sources: BTreeMap<String, String>,
+    /// Texts of causes of differences by names without spaces, which may stand for them.
+    #[serde(default)]
+    pub causes: BTreeMap<String, String>,
 }
 
 /// Puts rows of a table beside the references of the case and its variants, and texts of sources in the
@@ -59,7 +62,8 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), CaseError> {
             }
         }
     }
-    name_sources(root, &node, &asked.sources)
+    put_texts(root, &node, Names { key: "source", list: "sources", texts: &asked.sources })?;
+    put_texts(root, &node, Names { key: "cause", list: "causes", texts: &asked.causes })
 }
 
 /// The text of a case with the table of its references in it instead of the name of a file.
@@ -157,33 +161,39 @@ fn add(entries: &mut BTreeMap<String, TomlNode>, reference: TomlNode) {
     }
 }
 
-/// Puts the texts of sources in the place of their names.
-fn name_sources(
-    root: &mut TomlNode,
-    node: &TomlNode,
-    sources: &BTreeMap<String, String>,
-) -> Result<(), CaseError> {
+/// Texts by short names.
+struct Names<'a> {
+    /// Key of references that may hold a name.
+    key: &'static str,
+    /// Where names and texts are given.
+    list: &'static str,
+    texts: &'a BTreeMap<String, String>,
+}
+
+/// Puts texts in the place of their names.
+fn put_texts(root: &mut TomlNode, node: &TomlNode, known: Names<'_>) -> Result<(), CaseError> {
+    let Names { key, list, texts } = known;
     let is_name = |text: &str| !text.is_empty() && !text.contains(char::is_whitespace);
-    if let Some(name) = sources.keys().find(|name| !is_name(name)) {
-        let path = format!("sources.{name}");
+    if let Some(name) = texts.keys().find(|name| !is_name(name)) {
+        let path = format!("{list}.{name}");
         return Err(refused(
             &node.get(&path).unwrap_or(node).key,
-            format!("`{name}` is no name of a source"),
+            format!("`{name}` is no name of a {key}"),
             "write a name without spaces, such as stokes-1851".to_owned(),
         ));
     }
-    if sources.is_empty() {
+    if texts.is_empty() {
         return Ok(());
     }
-    let names: Vec<&str> = sources.keys().map(String::as_str).collect();
+    let names: Vec<&str> = texts.keys().map(String::as_str).collect();
     for reference in all_references(root) {
-        let Some(source) = reference.find_mut("source") else { continue };
-        let TomlValue::String(text) = &source.value else { continue };
-        if let Some(meant) = sources.get(text) {
-            source.value = TomlValue::String(meant.clone());
+        let Some(named) = reference.find_mut(key) else { continue };
+        let TomlValue::String(text) = &named.value else { continue };
+        if let Some(meant) = texts.get(text) {
+            named.value = TomlValue::String(meant.clone());
         } else if is_name(text) {
-            let message = format!("[references.sources] has no `{text}`");
-            return Err(refused(&source.origin, message, suggestion(text, &names)));
+            let message = format!("[references.{list}] has no `{text}`");
+            return Err(refused(&named.origin, message, suggestion(text, &names)));
         }
     }
     Ok(())

@@ -1,4 +1,13 @@
-//! JSON Schema of case files, for editors: `#:schema alewife.schema.json` in the first line.
+//! JSON Schema of case files, for editors (`#:schema alewife.schema.json` in the first line) and for checks.
+
+use std::sync::LazyLock;
+
+use serde_json::Value;
+
+use crate::Geometry;
+
+static SCHEMA: LazyLock<Value> =
+    LazyLock::new(|| serde_json::from_str(schema()).unwrap_or_default());
 
 /// The schema as JSON text.
 ///
@@ -6,6 +15,37 @@
 #[must_use]
 pub fn schema() -> &'static str {
     include_str!("../../alewife.schema.json")
+}
+
+/// The schema of a whole case.
+pub(crate) fn whole() -> &'static Value {
+    &SCHEMA
+}
+
+/// The schema that a `$ref` leads to, if it is one.
+pub(crate) fn referred(declared: &Value) -> Option<&'static Value> {
+    SCHEMA.pointer(declared["$ref"].as_str()?.trim_start_matches('#'))
+}
+
+/// The schemas of which a value has one.
+pub(crate) fn alternatives(declared: &Value) -> &[Value] {
+    let all = declared["oneOf"].as_array().or_else(|| declared["anyOf"].as_array());
+    all.map_or(&[], Vec::as_slice)
+}
+
+/// Whether what a schema describes can stand in a case of a geometry.
+pub(crate) fn fits(declared: &Value, geometry: Geometry) -> bool {
+    let geometries = declared["geometries"].as_array();
+    geometries.is_none_or(|all| all.iter().any(|one| one == geometry.name()))
+}
+
+/// Names of those alternatives with values of their own that can stand in a case of a geometry.
+pub(crate) fn fitting(alternatives: &[Value], geometry: Geometry) -> Vec<&str> {
+    let fitting = alternatives.iter().filter(|one| fits(one, geometry));
+    fitting
+        .filter_map(|one| one["properties"].as_object()?.keys().next())
+        .map(String::as_str)
+        .collect()
 }
 
 #[cfg(test)]

@@ -69,6 +69,7 @@ fn knots(file: &TomlNode, path: &str) -> Result<TomlNode, TreeError> {
     let table = CsvTable::read(file, &asked)?;
     let times = table.column(&asked.time, "time", file)?;
     let values = table.column(&asked.column, "column", file)?;
+    table.check_lengths()?;
     let points = table.points(times, values)?;
     let node = |value| TomlNode { key: file.key.clone(), origin: file.origin.clone(), value };
     let slopes = natural_slopes(&points);
@@ -118,6 +119,20 @@ impl CsvTable {
         let header = reader.headers().map_err(unreadable)?.clone();
         let rows = reader.records().collect::<Result<_, _>>().map_err(unreadable)?;
         Ok(Self { source, header, rows })
+    }
+
+    /// Refuses rows with more or fewer cells than the header: a decimal comma makes two cells of a number.
+    fn check_lengths(&self) -> Result<(), TreeError> {
+        let wanted = self.header.len();
+        let Some(row) = self.rows.iter().find(|row| row.len() != wanted) else { return Ok(()) };
+        let n = row.len();
+        let message = format!("this row has {n} cells, and the header has {wanted}");
+        let help = if n > wanted {
+            "write numbers with a decimal point, and put texts with commas in quotes"
+        } else {
+            "write a comma for a cell that is empty, too"
+        };
+        Err(self.refused(row, message, help))
     }
 
     /// The column of a name, which a key of `file` gives.

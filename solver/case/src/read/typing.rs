@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::reference_rows::REFERENCES;
+use super::schema;
 use crate::Case;
 use crate::text::diagnostic::{CaseError, Diagnostic, Severity};
 use crate::text::meant::meant;
@@ -11,7 +12,7 @@ use crate::text::nearest::nearest;
 use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TomlValue};
 use crate::text::type_error::{Mismatch, TypeError, suggestion};
-use crate::{Geometry, ReferenceKind, ShapeSpec};
+use crate::{Geometry, ReferenceKind};
 
 /// Most diagnostics listed at once.
 const MOST_DIAGNOSTICS: usize = 20;
@@ -178,7 +179,8 @@ fn shapes_of(geometry: &str, accepted: &[String]) -> Option<Vec<String>> {
     let geometry = [Geometry::Planar, Geometry::Axisymmetric, Geometry::Spatial]
         .into_iter()
         .find(|one| one.name() == geometry)?;
-    let fitting = ShapeSpec::names_in(geometry);
+    let shapes = schema::alternatives(&schema::whole()["$defs"]["ShapeSpec"]);
+    let fitting = schema::fitting(shapes, geometry);
     Some(accepted.iter().filter(|shape| fitting.contains(&shape.as_str())).cloned().collect())
 }
 

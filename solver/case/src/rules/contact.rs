@@ -1,8 +1,9 @@
-//! Problems of `[contact]`: laws that are not valid, and cases without contact.
+//! Problems of `[contact]`: laws too weak or of long range, and cases without contact.
 
 use super::Findings;
+use crate::model::impact::Impact;
 use crate::model::speed::weight;
-use crate::{ContactSpec, Convection, Lock, Motion, TimeSettings};
+use crate::{ContactSpec, Convection, Lock, Motion, Scheme, TimeSettings};
 
 /// Range over half the least width of a body above which contact is no short-range force.
 const SHORT_RANGE: f64 = 0.5;
@@ -11,16 +12,9 @@ pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
     let (key, range) = match case.contact {
         None => return,
-        Some(ContactSpec::Quadratic { range, epsilon }) => {
-            findings.positive("contact.quadratic.epsilon", epsilon);
-            ("contact.quadratic.range", range)
-        }
-        Some(ContactSpec::Barrier { range, stiffness }) => {
-            findings.positive("contact.barrier.stiffness", stiffness);
-            ("contact.barrier.range", range)
-        }
+        Some(ContactSpec::Quadratic { range, .. }) => ("contact.quadratic.range", range),
+        Some(ContactSpec::Barrier { range, .. }) => ("contact.barrier.range", range),
     };
-    findings.positive(key, range);
     check_range(findings, key, range);
     match &case.time {
         TimeSettings::Steady(_) => findings.error(
@@ -38,7 +32,71 @@ pub fn check(findings: &mut Findings<'_>) {
             }
             check_yielding(findings);
             check_strength(findings, &case.contact);
+            check_impact(findings, &case.contact);
+            check_losses(findings, unsteady.scheme);
         }
+    }
+}
+
+/// Gap over the range left by an impact below which no mesh follows it.
+const LEAST_GAP: f64 = 0.01;
+
+/// A law that cannot store the energy of a fall, or only in a film that no mesh resolves.
+fn check_impact(findings: &mut Findings<'_>, contact: &Option<ContactSpec>) {
+    let (Some(contact), Some(impact)) = (contact, findings.model().hardest_impact()) else {
+        return;
+    };
+    let gap = contact.gap_of_energy(impact.energy);
+    if !(gap < LEAST_GAP * contact.range()) {
+        return;
+    }
+    let key = match contact {
+        ContactSpec::Quadratic { .. } => "contact.quadratic.epsilon",
+        ContactSpec::Barrier { .. } => "contact.barrier.stiffness",
+    };
+    let Impact { body, speed, energy, .. } = impact;
+    let left = if gap > 0.0 { format!("a gap of {gap:.1e}") } else { "no gap".to_owned() };
+    findings.warning(
+        key,
+        format!(
+            "\"{body}\" may meet a wall with {speed:.2e} m/s: contact stores its energy of {energy:.2e} with {left} left"
+        ),
+        "make the law stronger: `check` has the value that leaves half of the range",
+    );
+}
+
+/// What takes energy.
+fn check_losses(findings: &mut Findings<'_>, scheme: Scheme) {
+    let case = findings.case();
+    let Some(contact) = &case.contact else { return };
+    let law = match contact {
+        ContactSpec::Quadratic { .. } => "contact.quadratic",
+        ContactSpec::Barrier { .. } => "contact.barrier",
+    };
+    let losses = contact.losses();
+    if !losses.are_any() {
+        return;
+    }
+    if scheme == Scheme::Rk3 {
+        findings.error(
+            "time.unsteady.scheme",
+            "friction and restitution are solved for implicitly".to_owned(),
+            "write scheme = \"bdf2\", or leave them out of [contact]",
+        );
+    }
+    if case.frame.is_some() {
+        findings.error(
+            law,
+            "friction and restitution are those of walls at rest, and the domain travels with a body".to_owned(),
+            "leave `frame` out, or friction and restitution",
+        );
+    }
+    if losses.slip.is_none() && findings.model().expected_speed().is_none() {
+        findings.error(
+            &format!("{law}.slip"),
+            "no speed can be expected that the slip could be a thousandth of".to_owned(),
+            "give `slip`: a speed far below those of the bodies",
+        );
     }
 }
 
@@ -82,10 +140,10 @@ fn check_strength(findings: &mut Findings<'_>, contact: &Option<ContactSpec>) {
     let case = findings.case();
     // At a hundredth of the range.
     let (key, greatest) = match *contact {
-        Some(ContactSpec::Quadratic { range, epsilon }) => {
+        Some(ContactSpec::Quadratic { range, epsilon, .. }) => {
             ("contact.quadratic.epsilon", range * range / epsilon)
         }
-        Some(ContactSpec::Barrier { range, stiffness }) => {
+        Some(ContactSpec::Barrier { range, stiffness, .. }) => {
             let (gap, short) = (0.01f64, 0.99f64);
             let force = short * short / gap - 2.0 * short * gap.ln();
             ("contact.barrier.stiffness", stiffness * range * force)
@@ -193,17 +251,80 @@ epsilon = 1e-6
 
     #[test]
     fn numbers_that_are_not_positive_are_refused() {
-        assert_eq!(errors(ContactSpec::Quadratic { range: 0.03, epsilon: 1e-6 }), []);
-        assert_eq!(errors(ContactSpec::Barrier { range: 0.03, stiffness: 10.0 }), []);
+        let quadratic = |range, epsilon| {
+            let (restitution, friction, slip) = (None, None, None);
+            ContactSpec::Quadratic { range, epsilon, restitution, friction, slip }
+        };
+        let barrier = |range, stiffness| {
+            let (restitution, friction, slip) = (None, None, None);
+            ContactSpec::Barrier { range, stiffness, restitution, friction, slip }
+        };
+        assert_eq!(errors(quadratic(0.03, 1e-6)), []);
+        assert_eq!(errors(barrier(0.03, 10.0)), []);
         let refused = |contact, key: &str, value: &str| {
             let wanted = (key.to_owned(), format!("`{key}` is {value}, but must be positive"));
             assert_eq!(errors(contact), [wanted]);
         };
-        let quadratic = |range, epsilon| ContactSpec::Quadratic { range, epsilon };
         refused(quadratic(0.0, 1e-6), "contact.quadratic.range", "0");
         refused(quadratic(0.03, -1.0), "contact.quadratic.epsilon", "-1");
-        let barrier = |range, stiffness| ContactSpec::Barrier { range, stiffness };
         refused(barrier(-0.03, 10.0), "contact.barrier.range", "-0.03");
         refused(barrier(0.03, 0.0), "contact.barrier.stiffness", "0");
+    }
+
+    #[test]
+    fn losses_that_cannot_be_are_refused() {
+        for (settings, key) in [
+            (
+                ["contact.quadratic={range=0.03, epsilon=1e-6, restitution=1.2, slip=1e-3}"]
+                    .as_slice(),
+                "contact.quadratic.restitution",
+            ),
+            (
+                &["contact.quadratic={range=0.03, epsilon=1e-6, friction=-0.1, slip=1e-3}"],
+                "contact.quadratic.friction",
+            ),
+            (
+                &["contact.quadratic.friction=0.1", "contact.quadratic.slip=0.0"],
+                "contact.quadratic.slip",
+            ),
+            (&["contact.quadratic.friction=0.1"], "contact.quadratic.slip"),
+            (
+                &[
+                    "contact.quadratic={range=0.03, epsilon=1e-6, friction=0.1, slip=1e-3}",
+                    "time.unsteady.scheme=rk3",
+                ],
+                "time.unsteady.scheme",
+            ),
+        ] {
+            let found = problems(settings, None);
+            let errors = found.iter().filter(|problem| problem.severity == Severity::Error);
+            assert_eq!(
+                errors.map(|problem| &problem.key[..]).collect::<Vec<_>>(),
+                [key],
+                "{found:?}"
+            );
+        }
+        let fine = ["contact.quadratic={range=0.03, epsilon=1e-6, friction=0.1, slip=1e-3}"];
+        assert_eq!(problems(&fine, None), []);
+    }
+
+    /// A disc of the weight that the law carries, but not from this height.
+    #[test]
+    fn an_impact_too_hard_for_the_law_is_warned_about() {
+        let fall = [
+            "fluid={model='navier-stokes', viscosity=1e-3, density=1.0, gravity=[0.0, -1.0]}",
+            "body.0.density=100.0",
+        ];
+        let law = |law: &str| {
+            let settings = [fall[0], fall[1], law];
+            let found = problems(&settings, None);
+            let messages = found.iter().map(|problem| problem.message.clone());
+            messages.filter(|message| message.contains("meet a wall")).collect::<Vec<_>>()
+        };
+        let weak = law("contact={quadratic={range=0.03, epsilon=1e-5}}");
+        assert!(weak.len() == 1 && weak[0].contains("with no gap left"), "{weak:?}");
+        let weak = law("contact={barrier={range=0.03, stiffness=3e3}}");
+        assert!(weak.len() == 1 && weak[0].contains("a gap of"), "{weak:?}");
+        assert_eq!(law("contact={barrier={range=0.03, stiffness=1e5}}"), [""; 0]);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::read::CaseFile;
 use crate::text::diagnostic::{Diagnostic, Severity};
-use crate::{Case, Geometry, Model};
+use crate::{Case, Model};
 
 /// Diagnostics of the same kind on bodies that are made for the same swimmer.
 const MOST_ALIKE: usize = 3;
@@ -112,43 +112,15 @@ impl<'a> Findings<'a> {
         self.add(Severity::Warning, key, message, help);
     }
 
-    /// A number that must be larger than zero.
-    pub fn positive(&mut self, key: &str, value: f64) {
-        if value <= 0.0 {
-            let help = "write a number larger than 0";
-            self.error(key, format!("`{key}` is {value}, but must be positive"), help);
-        }
+    /// Whether nothing is wrong with a key or what is in its table.
+    pub fn is_right(&self, key: &str) -> bool {
+        let written = self.written(key);
+        self.diagnostics.iter().all(|one| !one.key.starts_with(&written))
     }
 
-    /// A number that must not be negative.
-    pub fn not_negative(&mut self, key: &str, value: f64) {
-        if value < 0.0 {
-            let help = "write 0 or a larger number";
-            self.error(key, format!("`{key}` is {value}, but must not be negative"), help);
-        }
-    }
-
-    /// A vector with one number per dimension; `true` if it is one.
-    pub fn vector(&mut self, key: &str, values: &[f64]) -> bool {
-        let geometry = self.case().geometry;
-        let dimensions = geometry.dimensions();
-        let is_vector = values.len() == dimensions;
-        if !is_vector {
-            let plural = if values.len() == 1 { "" } else { "s" };
-            let n = values.len();
-            self.error(
-                key,
-                format!("`{key}` has {n} number{plural}, but this case has {dimensions} dimensions"),
-                match geometry {
-                    Geometry::Planar | Geometry::Axisymmetric => {
-                        "write [x, y]; in axisymmetric cases x is along the axis and y the distance \
-                         from it"
-                    }
-                    Geometry::Spatial => "write [x, y, z]",
-                },
-            );
-        }
-        is_vector
+    /// Whether a vector has a number for each dimension; one that has not is refused elsewhere.
+    pub fn is_vector(&self, values: &[f64]) -> bool {
+        values.len() == self.case().geometry.dimensions()
     }
 }
 

@@ -4,7 +4,7 @@ use super::Findings;
 use crate::rules::flow::given_mesh;
 use crate::spec::units::{UnitLabel, defect};
 use crate::text::type_error::suggestion;
-use crate::{DomainSpec, Geometry, Units};
+use crate::{DomainSpec, Units};
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
@@ -13,19 +13,6 @@ pub fn check(findings: &mut Findings<'_>) {
             "title",
             "the title is empty".to_owned(),
             "say what is solved in one line",
-        );
-    }
-    let wanted = case.geometry.name();
-    let domains = match case.geometry {
-        Geometry::Planar => "box, channel, disc, mesh",
-        Geometry::Axisymmetric => "half-disc, cylinder",
-        Geometry::Spatial => "box, cylinder, sphere, mesh",
-    };
-    if !case.domain.geometries().contains(&case.geometry) {
-        findings.error(
-            "domain",
-            format!("this domain does not fit `geometry = \"{wanted}\"`"),
-            &format!("{wanted} domains: {domains}"),
         );
     }
     check_units(findings);
@@ -62,8 +49,7 @@ fn check_units(findings: &mut Findings<'_>) {
 fn check_domain(findings: &mut Findings<'_>) {
     match &findings.case().domain {
         DomainSpec::Box { min, max } => {
-            let are_corners =
-                findings.vector("domain.box.min", min) && findings.vector("domain.box.max", max);
+            let are_corners = findings.is_vector(min) && findings.is_vector(max);
             if are_corners && min.iter().zip(max).any(|(low, high)| high <= low) {
                 findings.error(
                     "domain.box.max",
@@ -72,26 +58,13 @@ fn check_domain(findings: &mut Findings<'_>) {
                 );
             }
         }
-        DomainSpec::Channel { length, height } => {
-            findings.positive("domain.channel.length", *length);
-            findings.positive("domain.channel.height", *height);
-        }
+        DomainSpec::Cylinder { x, .. } if x[1] <= x[0] => findings.error(
+            "domain.cylinder.x",
+            format!("the cylinder from {} to {} is empty", x[0], x[1]),
+            "write x = [start, end] with start < end",
+        ),
         DomainSpec::Mesh(_) => given_mesh::check(findings),
-        DomainSpec::Disc { radius, .. } => findings.positive("domain.disc.radius", *radius),
-        DomainSpec::Sphere { radius, .. } => findings.positive("domain.sphere.radius", *radius),
-        DomainSpec::HalfDisc { radius, .. } => {
-            findings.positive("domain.half-disc.radius", *radius);
-        }
-        DomainSpec::Cylinder { x, radius } => {
-            findings.positive("domain.cylinder.radius", *radius);
-            if x[1] <= x[0] {
-                findings.error(
-                    "domain.cylinder.x",
-                    format!("the cylinder from {} to {} is empty", x[0], x[1]),
-                    "write x = [start, end] with start < end",
-                );
-            }
-        }
+        _ => {}
     }
 }
 

@@ -1,11 +1,14 @@
 //! What a case means: all its diagnostics at once, each with its location and a remedy.
 //!
-//! Reading has made sure of keys and types. Here every number is compared with what it stands for,
-//! and every name against what it names. Nothing is meshed or solved.
+//! Reading has made sure of keys and types. `declared` compares every number with what is declared of
+//! its key; the other files have what relates keys to each other, and names to what they name. Nothing
+//! is meshed or solved.
 
 mod angles;
 mod body;
 mod contact;
+mod declared;
+mod drive;
 mod extremes;
 mod findings;
 mod flow;
@@ -16,6 +19,8 @@ mod placement;
 mod references;
 mod space;
 mod time;
+
+pub use self::drive::at_rest;
 
 use self::body::{bodies, joints, strokes, swimmers};
 use self::findings::Findings;
@@ -32,6 +37,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     }
     // What follows from degrees that are taken for radians is told after them
     angles::check(&mut findings, file);
+    declared::check(&mut findings);
     general::check(&mut findings);
     fluid::check(&mut findings);
     boundary::check(&mut findings);

@@ -6,9 +6,12 @@ use super::Findings;
 use crate::quantity::{Condition, conditions_of, known_quantities, renamed};
 use crate::text::nearest::nearest;
 use crate::text::type_error::suggestion;
-use crate::{Expected, Geometry, Reference, ReferenceKind, Statistic, StatisticKind, TimeSettings};
+use crate::{
+    Expected, Geometry, Reference, ReferenceKind, Statistic, StatisticKind, TimeSettings,
+    Uncertainty, significant,
+};
 
-/// Part of the end of a run that is taken for rounding.
+/// Part of a number that is taken for rounding.
 const ROUNDING: f64 = 1e-9;
 
 pub fn check(findings: &mut Findings<'_>) {
@@ -56,10 +59,6 @@ pub fn check(findings: &mut Findings<'_>) {
         check_tolerance(findings, &key, reference);
         check_evidence(findings, &key, expected);
         check_statistic(findings, &key, statistic, end);
-        if expected.per == 0.0 {
-            let help = "leave it out, or write the scale the quantity is divided by";
-            findings.error(&format!("{key}.per"), "`per` is 0".to_owned(), help);
-        }
         if expected.source.trim().is_empty() {
             findings.error(
                 &format!("{key}.source"),
@@ -79,23 +78,12 @@ fn is_beyond(time: f64, end: f64) -> bool {
 fn check_evidence(findings: &mut Findings<'_>, key: &str, expected: &Expected) {
     let is_regression = expected.kind == ReferenceKind::Regression;
     if let Some(uncertainty) = expected.uncertainty {
-        let tolerance = expected.relative.or(expected.absolute).unwrap_or(f64::INFINITY);
-        if !(uncertainty >= 0.0 && uncertainty <= tolerance) {
-            findings.error(
-                &format!("{key}.uncertainty"),
-                format!(
-                    "the uncertainty {uncertainty} is not within 0 and the tolerance {tolerance}"
-                ),
-                "write it like the tolerance, relative to the value if that is `relative`, and a \
-                 tolerance that is not below it",
-            );
-        }
+        check_uncertainty(findings, &format!("{key}.uncertainty"), expected, uncertainty);
     } else if is_regression {
         findings.error(
             key,
             "a regression does not say how certain its value is".to_owned(),
-            "add uncertainty = ...: what a finer mesh and a shorter step change, relative to the \
-             value if the tolerance is `relative`",
+            "add uncertainty = \"... %\": what a finer mesh and a shorter step change",
         );
     }
     match &expected.date {
@@ -119,11 +107,64 @@ fn check_evidence(findings: &mut Findings<'_>, key: &str, expected: &Expected) {
         ),
         _ => {}
     }
-    if expected.outside.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
+    for (name, reason, what) in [
+        ("outside", &expected.outside, "is known to be outside"),
+        ("cause", &expected.cause, "differs by more than is uncertain"),
+    ] {
+        if reason.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
+            findings.error(
+                &format!("{key}.{name}"),
+                format!("the reason why the value {what} is empty"),
+                &format!("say why, or leave `{name}` out"),
+            );
+        }
+    }
+}
+
+/// Whether an uncertainty can be read in one way only, and is not above the tolerance.
+fn check_uncertainty(
+    findings: &mut Findings<'_>,
+    key: &str,
+    expected: &Expected,
+    uncertainty: Uncertainty,
+) {
+    let value = expected.value;
+    match (uncertainty, expected.relative) {
+        (Uncertainty::Absolute(size), Some(_)) => {
+            let share = 100.0 * size / value.abs();
+            findings.error(
+                key,
+                "a plain number beside `relative` may be meant in the unit of the value or relative \
+                 to it"
+                    .to_owned(),
+                &format!(
+                    "write per cent of the value: \"{} %\" if {size} is in its unit, \"{} %\" if \
+                     it is relative",
+                    significant(share),
+                    significant(100.0 * size)
+                ),
+            );
+            return;
+        }
+        (Uncertainty::Percent(_), _) if value == 0.0 => {
+            let help = "write a number in the unit of the value";
+            findings.error(key, "per cent of 0 are 0".to_owned(), help);
+            return;
+        }
+        _ => {}
+    }
+    let relative = expected.relative.map(|relative| relative * value.abs());
+    let tolerance = relative.or(expected.absolute).unwrap_or(f64::INFINITY);
+    let size = uncertainty.of(value);
+    if !(size >= 0.0 && size <= tolerance * (1.0 + ROUNDING)) {
+        let of = expected.relative.map_or_else(
+            || tolerance.to_string(),
+            |relative| format!("{} %", significant(100.0 * relative)),
+        );
         findings.error(
-            &format!("{key}.outside"),
-            "the reason why the value is known to be outside is empty".to_owned(),
-            "say why, or leave `outside` out",
+            key,
+            format!("the uncertainty {uncertainty} is not within 0 and the tolerance {of}"),
+            "write an uncertainty that is not negative, and a tolerance that is not below it",
         );
     }
 }
@@ -199,17 +240,12 @@ fn check_tolerance(findings: &mut Findings<'_>, key: &str, reference: &Reference
             format!("the reference for `{}` has no tolerance", reference.statistic.quantity),
             "add relative = ... (a fraction of the value) or absolute = ...",
         ),
-        (Some(relative), None) => {
-            findings.positive(&format!("{key}.relative"), relative);
-            if reference.expected.value == 0.0 {
-                findings.error(
-                    &format!("{key}.relative"),
-                    "no value but 0 is near 0 in relative terms".to_owned(),
-                    "write absolute = ... instead",
-                );
-            }
-        }
-        (None, Some(absolute)) => findings.positive(&format!("{key}.absolute"), absolute),
+        (Some(_), None) if reference.expected.value == 0.0 => findings.error(
+            &format!("{key}.relative"),
+            "no value but 0 is near 0 in relative terms".to_owned(),
+            "write absolute = ... instead",
+        ),
+        _ => {}
     }
 }
 

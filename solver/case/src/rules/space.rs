@@ -1,8 +1,8 @@
-//! Problems of cases in three dimensions, and of keys that only such cases have.
+//! Problems of cases in three dimensions, and of vectors that only such cases have.
 
 use super::Findings;
 use crate::model::speed::norm;
-use crate::{Body, DomainSpec, GaitSpec, Geometry, Motion, Orientation, ShapeSpec};
+use crate::{Body, DomainSpec, Geometry, Motion, Orientation, ShapeSpec};
 
 /// Difference of the length of a quaternion from 1 that is taken for rounding.
 const ROUNDING: f64 = 1e-6;
@@ -101,73 +101,27 @@ fn check_cylinder(findings: &mut Findings<'_>, key: &str, body: &Body) {
     }
 }
 
-/// Turns of a body in space are about an axis.
+/// Quaternions by which a body is turned are of unit length.
 fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
-    if body.angle != 0.0 {
-        findings.error(
-            &format!("{key}.angle"),
-            format!("`{key}.angle` is {}, but in space a turn is about an axis", body.angle),
-            "write orientation = { turned = { axis = [x, y, z], angle = ... } }, or \
-             orientation = { along = [x, y, z] } for the direction of the body's x axis",
-        );
-    }
     if let Some(orientation) = &body.orientation {
         check_orientation(findings, &format!("{key}.orientation"), orientation);
     }
-    if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
-        let gait = format!("{key}.gait.squirmer");
-        if squirmer.axis.is_some_and(|axis| norm(&axis) == 0.0) {
-            findings.error(
-                &format!("{gait}.axis"),
-                "the swimming axis points nowhere".to_owned(),
-                "write a direction such as [1.0, 0.0, 0.0]",
-            );
-        }
-        for (name, is_given) in
-            [("heading", squirmer.heading != 0.0), ("turn", squirmer.turn.is_some())]
-        {
-            if is_given {
-                findings.error(
-                    &format!("{gait}.{name}"),
-                    format!("`{name}` is an angle in the plane"),
-                    "in space write gait.squirmer.axis = [x, y, z], or turn the body",
-                );
-            }
-        }
-    }
-    let Some(spring) = &body.spring else { return };
-    if spring.rest_angle.is_some() {
-        findings.error(
-            &format!("{key}.spring.rest_angle"),
-            "`rest_angle` is an angle in the plane".to_owned(),
-            "in space write rest_orientation = { turned = { axis = [x, y, z], angle = ... } }",
-        );
-    }
-    if let Some(orientation) = &spring.rest_orientation {
+    let at_rest = body.spring.as_ref().and_then(|spring| spring.rest_orientation.as_ref());
+    if let Some(orientation) = at_rest {
         check_orientation(findings, &format!("{key}.spring.rest_orientation"), orientation);
     }
 }
 
-/// An orientation, of this key, about an axis that points somewhere.
+/// An orientation, of this key, by a quaternion of unit length.
 pub(super) fn check_orientation(findings: &mut Findings<'_>, key: &str, orientation: &Orientation) {
-    let mut no_direction = |name: &str, vector: &[f64]| {
-        if norm(vector) == 0.0 {
-            findings.error(
-                &format!("{key}.{name}"),
-                format!("`{key}.{name}` is zero and points nowhere"),
-                "write a direction such as [1.0, 0.0, 0.0]",
-            );
-        }
-    };
-    match orientation {
-        Orientation::Turned { axis, .. } => no_direction("turned.axis", axis),
-        Orientation::Along(direction) => no_direction("along", direction),
-        Orientation::Quaternion(parts) if (norm(parts) - 1.0).abs() > ROUNDING => findings.error(
+    if let Orientation::Quaternion(parts) = orientation
+        && (norm(parts) - 1.0).abs() > ROUNDING
+    {
+        findings.error(
             &format!("{key}.quaternion"),
             format!("the quaternion {parts:?} has the length {:.6}", norm(parts)),
             &unit_quaternion(parts),
-        ),
-        Orientation::Quaternion(_) => {}
+        );
     }
 }
 
@@ -182,25 +136,18 @@ fn unit_quaternion(parts: &[f64; 4]) -> String {
     format!("write [w, x, y, z] of length 1: in this direction [{}]", unit.join(", "))
 }
 
-/// Keys that turn a body out of the plane.
+/// Vectors that turn a body out of the plane.
 fn refuse_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let tilts =
         matches!(&body.motion, Motion::Imposed(imposed) if imposed.angular_velocity.tilts());
-    let has_axis =
-        matches!(&body.gait, Some(GaitSpec::Squirmer(squirmer)) if squirmer.axis.is_some());
-    let rests_turned = body.spring.as_ref().is_some_and(|spring| spring.rest_orientation.is_some());
-    for (name, is_given, help) in [
-        ("spring.rest_orientation", rests_turned, "write rest_angle = ... (rad)"),
-        ("orientation", body.orientation.is_some(), "write angle = ... (rad)"),
-        ("torque", body.torque.tilts(), "write one number, about z"),
-        ("motion.imposed.angular_velocity", tilts, "write one number, about z"),
-        ("gait.squirmer.axis", has_axis, "write heading = ... (rad)"),
-    ] {
+    for (name, is_given) in
+        [("torque", body.torque.tilts()), ("motion.imposed.angular_velocity", tilts)]
+    {
         if is_given {
             findings.error(
                 &format!("{key}.{name}"),
                 format!("`{key}.{name}` turns \"{}\" out of the plane", body.name),
-                &format!("{help}, or take geometry = \"spatial\""),
+                "write one number, about z, or take geometry = \"spatial\"",
             );
         }
     }

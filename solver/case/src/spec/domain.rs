@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::mesh_file::MeshFile;
+#[cfg(test)]
+use crate::spec::number::{NonZero, PerDimension, Positive};
 
 /// Dimension and symmetry of the problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -45,52 +47,67 @@ impl Geometry {
 pub enum DomainSpec {
     /// Rectangle with sides `left`, `right`, `bottom`, `top` (planar); in space also `back`, `front`,
     /// where z is least and largest.
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     Box {
         /// Corner with the least coordinates (m), one number per dimension.
+        #[cfg_attr(test, schemars(with = "PerDimension"))]
         min: Vec<f64>,
         /// Corner with the largest coordinates (m).
+        #[cfg_attr(test, schemars(with = "PerDimension"))]
         max: Vec<f64>,
     },
     /// Rectangle with its lower left corner at the origin; sides as those of a box (planar).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
     Channel {
         /// Extent along x (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         length: f64,
         /// Extent along y (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         height: f64,
     },
     /// Disc with the side `wall` (planar).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
     Disc {
         /// Centre (m).
         #[serde(default)]
         center: [f64; 2],
         /// Radius (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         radius: f64,
     },
     /// A ball cut by its meridian plane, with the sides `wall` and `axis` (axisymmetric).
+    #[cfg_attr(test, schemars(extend("geometries" = ["axisymmetric"])))]
     HalfDisc {
         /// Centre on the axis (m).
         #[serde(default)]
         center: f64,
         /// Radius (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         radius: f64,
     },
     /// A cylinder about the x axis with the sides `left`, `right` and `wall` (spatial), or cut by its
     /// meridian plane, with the side `axis`, too (axisymmetric).
+    #[cfg_attr(test, schemars(extend("geometries" = ["axisymmetric", "spatial"])))]
     Cylinder {
         /// Both ends on the axis (m).
         x: [f64; 2],
         /// Radius (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         radius: f64,
     },
     /// A ball with the side `wall` (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Sphere {
         /// Centre (m).
         #[serde(default)]
         center: [f64; 3],
         /// Radius (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         radius: f64,
     },
     /// The region of a mesh made by Gmsh, with its physical names as sides (planar, spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     Mesh(MeshFile),
 }
 
@@ -102,11 +119,13 @@ pub enum TimeFunction {
     /// From 0 to 1 over the duration, linearly, then 1.
     Ramp {
         /// Time until the full value (s).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         duration: f64,
     },
     /// From 0 to 1 as (1 - cos(pi t / duration)) / 2, then 1.
     SmoothRamp {
         /// Time until the full value (s).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         duration: f64,
     },
     /// mean + amplitude sin(2 pi (t / period + phase)).
@@ -118,6 +137,7 @@ pub enum TimeFunction {
         #[serde(default = "one")]
         amplitude: f64,
         /// Period (s).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         period: f64,
         /// Phase (periods).
         #[serde(default)]
@@ -149,6 +169,7 @@ pub enum BoundaryCondition {
     /// The same velocity everywhere on the side.
     Velocity {
         /// Velocity (m/s), one number per dimension.
+        #[cfg_attr(test, schemars(with = "PerDimension"))]
         value: Vec<f64>,
         /// Factor in time.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -179,10 +200,13 @@ pub enum BoundaryCondition {
     /// with it (planar, `bottom` only, unsteady runs).
     WavingSheet {
         /// Amplitude (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         amplitude: f64,
         /// Wavelength (m); divides the length of the side.
+        #[cfg_attr(test, schemars(with = "Positive"))]
         wavelength: f64,
         /// Period (s); positive ones send the wave towards +x, negative ones towards -x.
+        #[cfg_attr(test, schemars(with = "NonZero"))]
         period: f64,
         /// Whether its material moves up and down only; otherwise it keeps its length.
         #[serde(default)]

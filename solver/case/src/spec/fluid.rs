@@ -1,5 +1,7 @@
 //! `[fluid]`: density, viscosity, gravity and which equations hold.
 
+#[cfg(test)]
+use crate::spec::number::{NonNegative, PerDimension, Positive};
 use serde::{Deserialize, Serialize};
 
 /// Which equations the fluid obeys.
@@ -23,12 +25,15 @@ pub struct Fluid {
     /// Which equations hold.
     pub model: FlowModel,
     /// Dynamic viscosity (Pa s).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub viscosity: f64,
     /// Density (kg/m3); needed unless the model is `stokes`.
     #[serde(default)]
+    #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub density: f64,
     /// Acceleration of gravity (m/s2), one number per dimension; it acts on bodies through their
     /// weight less buoyancy, so that the pressure is the one without its hydrostatic part.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub gravity: Vec<f64>,
 }

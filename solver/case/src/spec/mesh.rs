@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+#[cfg(test)]
+use crate::spec::number::{Fraction, PerDimension, Positive, UpToOne};
 use serde::{Deserialize, Serialize};
 
 /// `[mesh]`.
@@ -10,18 +12,23 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct MeshSettings {
     /// Largest edge length anywhere (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub size: f64,
     /// Edge length on body surfaces (m); `size` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub surface: Option<f64>,
     /// Edge lengths on sides of the domain, by name (m).
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, Positive>"))]
     pub sides: BTreeMap<String, f64>,
     /// Growth of the edge length per unit distance (1).
     #[serde(default = "default_growth")]
+    #[cfg_attr(test, schemars(with = "UpToOne"))]
     pub growth: f64,
     /// Layers of cells wanted across the gap between two surfaces.
     #[serde(default = "default_gap_layers")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub gap_layers: f64,
     /// Rectangles, or boxes in space, with finer cells.
     #[serde(default, skip_serializing_if = "Vec::is_empty", rename = "box")]
@@ -35,6 +42,7 @@ pub struct MeshSettings {
     /// Factor on the sizes above and on `growth`, divisor of `gap_layers`: 0.5 is the same mesh
     /// twice as fine everywhere (1).
     #[serde(default = "default_scale")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub scale: f64,
 }
 
@@ -66,10 +74,12 @@ pub struct MovingMesh {
     pub equation: MeshEquation,
     /// Quality of a cell, over its quality when new, below which the domain is remeshed (1).
     #[serde(default = "default_quality")]
+    #[cfg_attr(test, schemars(with = "Fraction"))]
     pub quality: f64,
     /// Layers of cells across a gap below which the domain is remeshed; half of `gap_layers`, 2 at most, if
     /// absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub layers: Option<f64>,
 }
 
@@ -103,10 +113,13 @@ pub enum MeshEquation {
 #[serde(deny_unknown_fields)]
 pub struct RefinementBox {
     /// Corner with the least coordinates (m), one number per dimension.
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub min: Vec<f64>,
     /// Corner with the largest coordinates (m).
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub max: Vec<f64>,
     /// Largest edge length inside (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub size: f64,
 }
 

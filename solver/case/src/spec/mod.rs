@@ -1,4 +1,4 @@
-//! What the keys of a case are: its types, and what each of them means by itself.
+//! What the keys of a case are: its types, their ranges, and what each of them means by itself.
 
 pub(crate) mod body;
 pub(crate) mod case;
@@ -9,9 +9,12 @@ pub(crate) mod fluid;
 pub(crate) mod mean_flow;
 pub(crate) mod mesh;
 pub(crate) mod mesh_file;
+#[cfg(test)]
+mod number;
 pub(crate) mod output;
 pub(crate) mod reference;
 pub(crate) mod statistic;
 pub(crate) mod time;
 mod time_function;
+pub(crate) mod uncertainty;
 pub(crate) mod units;

@@ -2,7 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+#[cfg(test)]
+use crate::spec::number::{PerDimension, Positive};
 use crate::text::wall_time::WallTime;
+#[cfg(test)]
+use std::num::NonZeroUsize;
 
 /// How often something is written.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -14,9 +18,9 @@ pub enum Cadence {
     /// Once, at the end of the run.
     End,
     /// Every so many steps (and at the end).
-    Steps(usize),
+    Steps(#[cfg_attr(test, schemars(with = "NonZeroUsize"))] usize),
     /// At every multiple of this time (s) (and at the end).
-    Time(f64),
+    Time(#[cfg_attr(test, schemars(with = "Positive"))] f64),
 }
 
 /// Floating-point numbers in field files.
@@ -60,6 +64,7 @@ pub struct Checkpoints {
     pub wall: WallTime,
     /// Time of the run between two of them (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub time: Option<f64>,
     /// How many are kept, the latest; 0 for none at all.
     #[serde(default = "two")]
@@ -107,8 +112,10 @@ pub struct Probe {
     /// Name, used in outputs and references.
     pub name: String,
     /// Where (m), one number per dimension.
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub point: Vec<f64>,
     /// A second point whose values are subtracted (m).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub minus: Vec<f64>,
 }

@@ -4,6 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::uncertainty::Uncertainty;
+#[cfg(test)]
+use crate::spec::number::{NonZero, Positive};
 use crate::{Statistic, StatisticKind};
 
 /// `[scales]`: what makes coefficients and numbers dimensionless.
@@ -14,12 +17,15 @@ use crate::{Statistic, StatisticKind};
 #[serde(deny_unknown_fields)]
 pub struct Scales {
     /// Length (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub length: f64,
     /// Velocity (m/s).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub velocity: f64,
     /// Area of force coefficients (m2); `length` per unit width in planar cases, and
     /// pi length^2 / 4 in axisymmetric ones, if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub area: Option<f64>,
 }
 
@@ -72,6 +78,11 @@ pub enum ReferenceKind {
     Exact,
     /// Computed by another method or code.
     Independent,
+    /// An asymptote, a truncated series or a reduced theory such as that of slender bodies: off by what it
+    /// leaves out.
+    Approximate,
+    /// Computed by this program in another geometry, frame or dimension: shows that two ways agree.
+    Internal,
     /// What must hold whatever the numbers are: zero, symmetry, balance, an interval.
     Property,
     /// An earlier value of this program: shows that something has changed, not that it is right.
@@ -80,11 +91,13 @@ pub enum ReferenceKind {
 
 impl ReferenceKind {
     /// All of them, the strongest evidence first.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Measured,
         Self::Literature,
         Self::Exact,
         Self::Independent,
+        Self::Approximate,
+        Self::Internal,
         Self::Property,
         Self::Regression,
     ];
@@ -97,9 +110,18 @@ impl ReferenceKind {
             Self::Literature => "literature",
             Self::Exact => "exact",
             Self::Independent => "independent",
+            Self::Approximate => "approximate",
+            Self::Internal => "internal",
             Self::Property => "property",
             Self::Regression => "regression",
         }
+    }
+
+    /// Whether such a value is evidence that a computed one is right, and not a condition it has to meet or
+    /// what the program gave before.
+    #[must_use]
+    pub fn is_evidence(self) -> bool {
+        !matches!(self, Self::Property | Self::Regression)
     }
 
     /// What values of this kind are, in a few words.
@@ -110,6 +132,8 @@ impl ReferenceKind {
             Self::Literature => "published, of a computation by others",
             Self::Exact => "a formula or series, evaluated",
             Self::Independent => "computed with another method or code",
+            Self::Approximate => "an asymptote or a reduced theory, evaluated",
+            Self::Internal => "this program in another geometry, frame or dimension",
             Self::Property => "what must hold: zero, symmetry, balance, an interval",
             Self::Regression => "an earlier value of this program",
         }
@@ -138,8 +162,8 @@ pub struct Expected {
     pub relative: Option<f64>,
     /// Accepted difference; this or `relative`.
     pub absolute: Option<f64>,
-    /// The value's own uncertainty, relative to it if the tolerance is `relative`.
-    pub uncertainty: Option<f64>,
+    /// The value's own uncertainty.
+    pub uncertainty: Option<Uncertainty>,
     /// What kind of evidence the value is.
     pub kind: ReferenceKind,
     /// Who published the value and where, or how it follows.
@@ -148,6 +172,8 @@ pub struct Expected {
     pub date: Option<String>,
     /// Why the computed value is known to be outside the tolerance.
     pub outside: Option<String>,
+    /// Why the computed value differs by more than is uncertain in both.
+    pub cause: Option<String>,
     /// What a reader should know: disagreements in words.
     pub note: Option<String>,
 }
@@ -178,17 +204,20 @@ struct WrittenReference {
     value: f64,
     /// What the computed quantity is divided by before it is compared (say, 6 pi mu a U).
     #[serde(default = "one")]
+    #[cfg_attr(test, schemars(with = "NonZero"))]
     per: f64,
     /// Accepted difference relative to the value (1); this or `absolute`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     relative: Option<f64>,
     /// Accepted difference; this or `relative`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     absolute: Option<f64>,
-    /// The value's own uncertainty, relative to it if the tolerance is `relative`; of a
-    /// `regression`, what refinement of mesh and step changes.
+    /// The value's own uncertainty: a text such as "0.5 %" of the value, or beside `absolute` a number in
+    /// its unit; of a `regression`, what refinement of mesh and step changes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    uncertainty: Option<f64>,
+    uncertainty: Option<Uncertainty>,
     /// What kind of evidence the value is.
     kind: ReferenceKind,
     /// Who published the value and where, or how it follows.
@@ -199,6 +228,9 @@ struct WrittenReference {
     /// Why the computed value is known to be outside the tolerance; an error once it is within.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     outside: Option<String>,
+    /// Why the computed value, though within the tolerance, differs by more than is uncertain in both.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cause: Option<String>,
     /// What a reader should know: disagreements in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     note: Option<String>,
@@ -225,6 +257,7 @@ impl From<WrittenReference> for Reference {
                 source: written.source,
                 date: written.date,
                 outside: written.outside,
+                cause: written.cause,
                 note: written.note,
             },
         }
@@ -249,6 +282,7 @@ impl From<Reference> for WrittenReference {
             source: expected.source,
             date: expected.date,
             outside: expected.outside,
+            cause: expected.cause,
             note: expected.note,
         }
     }

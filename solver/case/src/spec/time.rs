@@ -1,7 +1,11 @@
 //! `[time]`: a steady solution, or time steps.
 
+#[cfg(test)]
+use crate::spec::number::{Fraction, Positive};
 use alewife_mesh::whole;
 use serde::{Deserialize, Serialize};
+#[cfg(test)]
+use std::num::NonZeroUsize;
 
 /// `[time.steady]` or `[time.unsteady]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,9 +25,11 @@ pub enum TimeSettings {
 pub struct Steady {
     /// Largest residual relative to the first one (1).
     #[serde(default = "default_tolerance")]
+    #[cfg_attr(test, schemars(with = "Fraction"))]
     pub tolerance: f64,
     /// Most Newton iterations for one Reynolds number.
     #[serde(default = "default_iterations")]
+    #[cfg_attr(test, schemars(with = "NonZeroUsize"))]
     pub max_iterations: usize,
 }
 
@@ -33,8 +39,10 @@ pub struct Steady {
 #[serde(deny_unknown_fields)]
 pub struct Unsteady {
     /// Step (s); the first one where steps are adaptive.
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub step: f64,
     /// End (s).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub end: f64,
     /// Scheme.
     #[serde(default)]
@@ -60,9 +68,9 @@ pub struct Unsteady {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Until {
     /// One of them is nearer to such a side than this (m).
-    OneLeaves(f64),
+    OneLeaves(#[cfg_attr(test, schemars(with = "Positive"))] f64),
     /// All of them are at once.
-    AllLeave(f64),
+    AllLeave(#[cfg_attr(test, schemars(with = "Positive"))] f64),
 }
 
 impl Until {
@@ -104,18 +112,23 @@ impl Unsteady {
 pub struct Adaptive {
     /// Largest error of one step, relative to the size of the velocities (1).
     #[serde(default = "default_step_tolerance")]
+    #[cfg_attr(test, schemars(with = "Fraction"))]
     pub tolerance: f64,
     /// Largest step (s); a tenth of the run if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub largest: Option<f64>,
     /// Smallest step (s), below which the run fails; a millionth of `step` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub smallest: Option<f64>,
     /// Cells the fluid may cross in a step (1).
     #[serde(default = "default_cfl")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub cfl: f64,
     /// Part of a gap that may close or open in a step (1).
     #[serde(default = "default_gap_part")]
+    #[cfg_attr(test, schemars(with = "Fraction"))]
     pub gap: f64,
 }
 
@@ -143,6 +156,12 @@ pub enum Convection {
     Extrapolated,
     /// Solved by Newton's method.
     Newton,
+}
+
+impl Convection {
+    /// CFL number up to which extrapolated convection was found to agree with Newton's method
+    /// (docs/method.md, section 6).
+    pub const LARGEST_CFL: f64 = 5.0;
 }
 
 /// The state at time zero.

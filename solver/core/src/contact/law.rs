@@ -1,6 +1,6 @@
 //! `Law`: the short-range force as a function of the gap.
 
-use super::ContactError;
+use super::{ContactError, Dissipation};
 
 /// Which law, with its strength.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +23,7 @@ pub enum LawKind {
 pub struct Law {
     kind: LawKind,
     range: f64,
+    dissipation: Option<Dissipation>,
 }
 
 impl Law {
@@ -40,7 +41,27 @@ impl Law {
                 return Err(ContactError::Law { what, value });
             }
         }
-        Ok(Self { kind, range })
+        Ok(Self { kind, range, dissipation: None })
+    }
+
+    /// The same with forces that take energy.
+    ///
+    /// # Errors
+    /// [`ContactError::Law`] when one of their numbers is not what it can be.
+    pub fn with_dissipation(self, dissipation: Dissipation) -> Result<Self, ContactError> {
+        Ok(Self { dissipation: Some(dissipation.checked()?), ..self })
+    }
+
+    /// What takes energy, if anything.
+    #[must_use]
+    pub fn dissipation(&self) -> Option<&Dissipation> {
+        self.dissipation.as_ref()
+    }
+
+    /// Whether contact turns bodies that are round, too.
+    #[must_use]
+    pub fn turns_round_bodies(&self) -> bool {
+        self.dissipation.is_some_and(|dissipation| dissipation.friction > 0.0)
     }
 
     /// Which law.

@@ -1,5 +1,6 @@
 //! `ContactLoads`: force and torque of contact on each body, with every contact and its gap.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{ContactPair, Gaps, Law, MinimumGap, Partner};
@@ -13,6 +14,8 @@ pub struct ContactForce {
     /// Repulsive force along the normal (N; N/m planar). On a ring in axisymmetric problems only
     /// its part along the axis is a load.
     pub force: f64,
+    /// What friction and damping add on the body (N; N/m planar).
+    pub dissipative: Vector3<f64>,
 }
 
 /// What contact does to the bodies.
@@ -25,23 +28,55 @@ pub struct ContactLoads {
     pub contacts: Vec<ContactForce>,
     /// The smallest gap, within the range or not; `None` for one body without walls.
     pub minimum_gap: Option<MinimumGap>,
+    /// Impulse of contact on each body in the last step, as the backward difference has it: what changes its momentum (N s).
+    pub last_impulses: Vec<Vector3<f64>>,
+    /// Impulses so far (N s).
+    pub impulses: Vec<Vector3<f64>>,
+    /// Energy stored in contact (J; J/m planar).
+    pub energy: f64,
+    /// Energy that errors of the steps have made in contact so far, less what they have lost (J; J/m planar).
+    pub energy_made: f64,
 }
 
 impl ContactLoads {
+    /// The same after loads at the level before, with their impulses in a step between the two: `impulse` gives that of a
+    /// force at its end after the impulse of the step before.
+    #[must_use]
+    pub fn after(
+        mut self,
+        before: &Self,
+        impulse: impl Fn(Vector3<f64>, Vector3<f64>) -> Vector3<f64>,
+    ) -> Self {
+        let none = Vector3::zeros();
+        let of =
+            |impulses: &[Vector3<f64>], body: usize| impulses.get(body).copied().unwrap_or(none);
+        let loads = self.wrenches.iter().enumerate();
+        let impulses =
+            loads.map(|(body, load)| impulse(load.force, of(&before.last_impulses, body)));
+        self.last_impulses = impulses.collect();
+        let sums = self.last_impulses.iter().enumerate();
+        self.impulses = sums.map(|(body, last)| of(&before.impulses, body) + last).collect();
+        self
+    }
+
     /// No contact at all.
     #[must_use]
     pub fn none(n_bodies: usize) -> Self {
         Self { wrenches: vec![Wrench::default(); n_bodies], ..Self::default() }
     }
 
-    /// Loads of a law with bodies in these poses.
+    /// Loads of a law with bodies in these poses, without what depends on their velocities.
     #[must_use]
     pub fn new(gaps: &dyn Gaps, law: &Law, poses: &[Pose]) -> Self {
         let pairs = gaps.pairs(poses, law.range());
-        let contacts = pairs
-            .into_iter()
-            .map(|pair| ContactForce { pair, force: pair.weight * law.force(pair.gap) });
-        Self::gather(gaps.n_bodies(), contacts.collect(), gaps.minimum_gap(poses))
+        let contacts = pairs.into_iter().map(|pair| ContactForce {
+            pair,
+            force: pair.weight * law.force(pair.gap),
+            dissipative: Vector3::zeros(),
+        });
+        let loads = Self::gather(gaps.n_bodies(), contacts.collect(), gaps.minimum_gap(poses));
+        let energies = loads.contacts.iter().map(|at| at.pair.weight * law.energy(at.pair.gap));
+        Self { energy: energies.sum(), ..loads }
     }
 
     /// Sums the loads of contacts.
@@ -52,13 +87,18 @@ impl ContactLoads {
     ) -> Self {
         let mut wrenches = vec![Wrench::default(); n_bodies];
         for contact in &contacts {
-            let [on_body, on_partner] = contact.pair.loads(contact.force);
+            let [mut on_body, mut on_partner] = contact.pair.loads(contact.force);
+            if contact.dissipative != Vector3::zeros() {
+                let [body, partner] = contact.pair.gradient_along(&contact.dissipative);
+                on_body = on_body + Wrench::from_vector(&body);
+                on_partner = on_partner + Wrench::from_vector(&partner);
+            }
             let body = contact.pair.body;
             wrenches[body] = wrenches[body] + on_body;
             if let Partner::Body(other) = contact.pair.partner {
                 wrenches[other] = wrenches[other] + on_partner;
             }
         }
-        Self { wrenches, contacts, minimum_gap }
+        Self { wrenches, contacts, minimum_gap, ..Self::default() }
     }
 }

@@ -7,6 +7,8 @@
 //! The fluid enters through the mobility of the bodies.
 
 mod coupled;
+mod dissipation;
+mod energy;
 mod error;
 mod gaps;
 mod implicit;
@@ -17,6 +19,8 @@ pub use coupled::{
     BodyDynamics, ByMobility, ByQuasiNewton, ContactPrediction, CoupledContact, CoupledSolver,
     LoadedFlow, SecantMobility, StageContact,
 };
+pub use dissipation::Dissipation;
+pub use energy::{BodyInStep, ContactEnergy, StepEnergy};
 pub use error::ContactError;
 pub use gaps::{
     ContactPair, ContactSurface, Curvatures, FacingPoints, Gaps, MinimumGap, PairMatrix,

@@ -8,7 +8,7 @@ use crate::space::straight_cell;
 /// Largest sum of the sizes of the residuals of the continuity equation over the flux through the domain.
 const TOLERANCE: f64 = 1e-8;
 /// Part of the root mean square of the velocity times the cross-section of the domain that is the flux where boundaries are
-/// slow: of fluid that is driven by a force, and goes on by its inertia.
+/// slow: of fluid that is driven by a force, and continues by its inertia.
 const INSIDE: f64 = 0.1;
 
 /// Largest sum of the sizes of the residuals of the continuity equation, tested with the functions of the pressures, at a

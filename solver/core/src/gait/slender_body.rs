@@ -8,7 +8,7 @@ use super::deformed_outline::{DeformedOutline, RecoilCorrection, ShapeMotion};
 use super::error::GaitError;
 use super::grid::Grid;
 use super::hull::{Closed, Hull};
-use super::midline::{Frame, Midline};
+use super::midline::{Carangiform, Frame, Midline};
 use super::momentum::Interior;
 use super::recoil::{Recoil, RecoilAngle, RecoilMotion};
 
@@ -57,7 +57,7 @@ impl SlenderBody {
         height: Option<SectionHeight>,
         midline: Midline,
     ) -> Result<Self, GaitError> {
-        if let Midline::Carangiform(gait) = &midline
+        if let Midline::Carangiform(Carangiform { gait, .. }) = &midline
             && gait.curvature.len() < 2
         {
             return Err(GaitError::Curvature { points: gait.curvature.len() });

@@ -15,6 +15,7 @@ use super::midline::Frames;
 use super::momentum::offset;
 use super::number::cross;
 use super::*;
+use crate::case::{AnguilliformGait, CarangiformGait, FlagellumGait};
 
 fn fish() -> Profile {
     fish_with_tip(1e-3)
@@ -39,22 +40,20 @@ fn carangiform() -> Midline {
     let curvature = points.into_iter().zip(curvatures).map(|(s, k)| [s, k]).collect();
     Midline::Carangiform(Carangiform {
         length: 1.0,
-        curvature,
-        bending: 0.0,
-        period: 1.0,
-        phase: 0.0,
-        ramp: 1.0,
+        gait: CarangiformGait { curvature, bending: 0.0, period: 1.0, phase: 0.0, ramp: None },
     })
 }
 
 fn anguilliform(amplitude: f64) -> Midline {
     Midline::Anguilliform(Anguilliform {
         length: 1.0,
-        amplitude,
-        offset: 1.0 / 32.0,
-        period: 1.0,
-        phase: 0.0,
-        ramp: 1.0,
+        gait: AnguilliformGait {
+            amplitude,
+            offset: 1.0 / 32.0,
+            period: 1.0,
+            phase: 0.0,
+            ramp: None,
+        },
     })
 }
 
@@ -66,14 +65,16 @@ fn flagellate() -> Profile {
 fn flagellum(inextensible: bool) -> Midline {
     Midline::Flagellum(Flagellum {
         head: 4.0,
-        length: 50.0,
-        amplitude: 4.0,
-        wavelength: 20.0,
-        period: 0.3,
-        phase: 0.0,
-        ramp: 1.0,
-        joint: 2.5,
-        inextensible,
+        tail: 50.0,
+        gait: FlagellumGait {
+            amplitude: 4.0,
+            wavelength: 20.0,
+            period: 0.3,
+            phase: 0.0,
+            ramp: Some(1.0),
+            joint: None,
+            inextensible,
+        },
     })
 }
 
@@ -347,9 +348,13 @@ fn outlines_do_not_cross_themselves_and_are_fast_to_make() {
 fn gaits_that_cannot_be_made_are_refused() {
     let refused = SlenderBody::new(&fish(), anguilliform(0.3)).unwrap_err();
     assert!(matches!(refused, GaitError::Midline { .. }), "{refused}");
-    let Midline::Carangiform(gait) = carangiform() else { panic!("is carangiform") };
-    let bent = Midline::Carangiform(Carangiform { bending: 6.0, ..gait.clone() });
-    let straight = Midline::Carangiform(Carangiform { curvature: Vec::new(), ..gait });
+    let Midline::Carangiform(Carangiform { length, gait }) = carangiform() else {
+        panic!("is carangiform")
+    };
+    let bent = CarangiformGait { bending: 6.0, ..gait.clone() };
+    let bent = Midline::Carangiform(Carangiform { length, gait: bent });
+    let straight = CarangiformGait { curvature: Vec::new(), ..gait };
+    let straight = Midline::Carangiform(Carangiform { length, gait: straight });
     let refused = SlenderBody::new(&fish(), straight).unwrap_err();
     assert_eq!(refused, GaitError::Curvature { points: 0 });
     let refused = SlenderBody::new(&fish(), bent).unwrap_err();
@@ -359,10 +364,13 @@ fn gaits_that_cannot_be_made_are_refused() {
 /// The outline crosses itself between the times at which the gait is evaluated when it is made.
 #[test]
 fn a_gait_that_fails_later_is_an_error_with_its_time() {
-    let Midline::Carangiform(gait) = carangiform() else { panic!("is carangiform") };
+    let Midline::Carangiform(Carangiform { length, gait }) = carangiform() else {
+        panic!("is carangiform")
+    };
     let phase = 0.75 - 1.0 / 48.0;
-    let bent = Carangiform { bending: 1.683, phase, ramp: 0.01, ..gait };
-    let body = SlenderBody::new(&fish(), Midline::Carangiform(bent)).unwrap();
+    let gait = CarangiformGait { bending: 1.683, phase, ramp: Some(0.01), ..gait };
+    let bent = Midline::Carangiform(Carangiform { length, gait });
+    let body = SlenderBody::new(&fish(), bent).unwrap();
     assert!(body.at(0.012).unwrap().outline(0.012).is_ok());
     let failure = body.at(0.033).unwrap().outline(0.033).unwrap_err();
     assert!(matches!(failure, GaitError::Crossing { time: 0.033, .. }), "{failure}");

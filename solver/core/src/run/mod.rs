@@ -5,6 +5,7 @@ mod case_mesh;
 mod control;
 mod cycle_report;
 mod error;
+mod free_memory;
 mod measure;
 mod planar;
 mod prepare;

@@ -108,7 +108,7 @@ fn at_rest<const D: usize>(
         timing.measure(Stage::MeshMotion, || make_moving(model, &problem, &state.mesh, poses))
     });
     let moving_mesh = moving_mesh.transpose()?;
-    let law = case.contact.as_ref().map(contact_law).transpose()?;
+    let law = contact_law(model)?;
     let work = Workspace { system, mesh: state.mesh.clone(), timing };
     let mut simulation = Simulation {
         problem,

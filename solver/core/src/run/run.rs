@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use alewife_mesh::interrupt::{self, Heard};
+
 use super::case_mesh::{CaseMesh, Dimension};
 use super::cycle_report::CycleReport;
 use super::measure::Measure;
@@ -44,7 +46,12 @@ pub(super) fn run_case<const D: usize>(
 where
     Dimension<D>: CaseMesh<D>,
 {
-    let Prepared { mut simulation, measure } = match prepare(model, saved) {
+    let requests: Vec<StopRequest> =
+        observers.iter().filter_map(|observer| observer.stop_request()).collect();
+    let stop: StopRequest = Arc::new(move || requests.iter().any(|request| request()));
+    let from = saved.map_or((0, 0.0), |saved| (saved.step(), saved.time()));
+    let prepared = interrupt::hearing(Arc::clone(&stop), || prepare(model, saved));
+    let Prepared { mut simulation, measure } = match meshed(prepared, from) {
         Ok(prepared) => prepared,
         Err(error) => {
             notify_all(observers, &error, None);
@@ -60,9 +67,7 @@ where
             tracing::warn!("other quantities than before: statistics begin where the run resumes");
         }
     }
-    let requests: Vec<StopRequest> =
-        observers.iter().filter_map(|observer| observer.stop_request()).collect();
-    simulation.stop = Some(Arc::new(move || requests.iter().any(|request| request())));
+    simulation.stop = Some(Arc::clone(&stop));
     let case = &model.case;
     let mut run = Run {
         case,
@@ -74,7 +79,8 @@ where
         pace: Pace::default(),
         cycles: Vec::new(),
     };
-    let result = run.make(saved.is_some());
+    let made = interrupt::hearing(Arc::clone(&stop), || run.make(saved.is_some()));
+    let result = meshed(made, (run.simulation.state.step, run.simulation.state.time));
     if let Err(error) = &result {
         run.notify_of_failure(error);
     }
@@ -87,6 +93,15 @@ where
     }
     let Run { simulation: Simulation { work, .. }, series, cycles, .. } = run;
     Ok(RunSummary { series, timing: work.timing, n_dofs: work.system.n_unknowns, steps, cycles })
+}
+
+/// What work came to in which meshing hears a request to stop; where it was ended, the run is stopped at a step and
+/// its time (s).
+fn meshed<R>(heard: Heard<Result<R, RunError>>, (step, time): (usize, f64)) -> Result<R, RunError> {
+    match heard.result {
+        Err(_) if heard.was_ended => Err(FlowError::Stopped { step, time }.into()),
+        result => result,
+    }
 }
 
 /// A run under way.
@@ -279,6 +294,15 @@ impl<const D: usize> Run<'_, D> {
         self.check_soundness(&measured.flow)?;
         self.propose_contact();
         if is_wanted { self.show_state() } else { Ok(()) }
+    }
+
+    /// Notes a piece of a step in which bodies may touch, which has no row.
+    pub(super) fn note_piece(&mut self, loads: &SurfaceLoads) {
+        let Self { simulation, measure, .. } = self;
+        // The pieces of the first step are those of a start
+        if simulation.law.is_some() && simulation.state.step > 0 {
+            measure.balance_piece(simulation, loads);
+        }
     }
 
     /// Gives the observers the whole state.

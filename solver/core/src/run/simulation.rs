@@ -53,7 +53,7 @@ pub struct StepScheme {
 }
 
 /// How fast the fluid crosses the cells, seen from the mesh.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct CellCrossing {
     /// Largest velocity over the shortest edge of a cell (1/s).
     pub rate: f64,
@@ -138,9 +138,12 @@ impl<const D: usize> Simulation<D> {
             }
             Scheme::Bdf2 | Scheme::Bdf1 => stepper.advance(work, state, Bdf::first_order(size))?,
         };
-        let StepReport { error, .. } = report;
+        let StepReport { error, contact_error, .. } = report;
         if error > REJECTED * tolerance {
             return Err(StepError::LocalErrorTooLarge { error, tolerance });
+        }
+        if contact_error > REJECTED {
+            return Err(StepError::ContactNotResolved { excess: contact_error });
         }
         state.accept(problem, level);
         // As a run has it that resumes from this state

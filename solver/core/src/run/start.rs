@@ -3,6 +3,7 @@
 use alewife_mesh::{Mesh, MeshError};
 
 use super::RunError;
+use super::free_memory;
 use super::simulation::{Simulation, StepScheme};
 use crate::case::{Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 use crate::coupling::{
@@ -138,10 +139,7 @@ pub(super) fn check_cells<const D: usize>(
 
 /// Memory that is free (GB), where the system tells.
 fn free_memory() -> Option<f64> {
-    let report = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = report.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kilobytes = line.trim().trim_end_matches(" kB").parse::<f64>().ok()?;
-    Some(kilobytes * 1024.0 / GIGABYTE)
+    Some(free_memory::free_memory()? / GIGABYTE)
 }
 
 #[cfg(test)]

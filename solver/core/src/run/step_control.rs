@@ -18,4 +18,6 @@ pub struct StepControl {
     pub proposed_step: Option<f64>,
     /// Pieces of the present step that are still to be made, the next one last.
     pub pieces: Vec<Piece>,
+    /// The longest next step that bodies in contact allow (s), where any are.
+    pub contact_step: Option<f64>,
 }

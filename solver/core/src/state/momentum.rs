@@ -17,8 +17,10 @@ const NEGLIGIBLE: f64 = 1e-6;
 pub struct Part {
     /// Momentum (kg m/s).
     pub momentum: Vector3<f64>,
-    /// Force (N).
+    /// Force (N), but for contact.
     pub force: Vector3<f64>,
+    /// Impulse of contact since the start (N s).
+    pub contact: Vector3<f64>,
 }
 
 /// Momentum of the fluid and of the bodies at one time.
@@ -72,7 +74,8 @@ impl MomentumBalance {
         let half = 0.5 * (now.time - before.time);
         for (defect, (now, before)) in self.defects.iter_mut().zip(now.parts().zip(before.parts()))
         {
-            *defect += (now.force + before.force) * half - (now.momentum - before.momentum);
+            *defect += (now.force + before.force) * half + (now.contact - before.contact)
+                - (now.momentum - before.momentum);
         }
         let part = half * (now.exchange + before.exchange);
         self.turnover += part;
@@ -100,8 +103,13 @@ mod tests {
             fluid: Part {
                 momentum: Vector3::new(lost(1.0) * (1.0 + density_error), 0.0, 0.0),
                 force: fluid,
+                contact: Vector3::zeros(),
             },
-            bodies: vec![Part { momentum: Vector3::new(drag, 0.0, 0.0), force: body }],
+            bodies: vec![Part {
+                momentum: Vector3::new(drag, 0.0, 0.0),
+                force: body,
+                contact: Vector3::zeros(),
+            }],
             exchange: body.norm(),
             scale: 1.0,
         }

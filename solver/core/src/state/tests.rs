@@ -71,7 +71,11 @@ fn energy() -> EnergyBalance {
 fn momentum() -> MomentumBalance {
     let mut balance = MomentumBalance::default();
     for nth in 0..30 {
-        let part = |seed: f64| Part { momentum: vectors(seed, 1)[0], force: vectors(-seed, 1)[0] };
+        let part = |seed: f64| {
+            let [momentum, force, contact] =
+                [seed, -seed, 2.0 * seed].map(|seed| vectors(seed, 1)[0]);
+            Part { momentum, force, contact }
+        };
         balance.add(MomentumRecord {
             time: f64::from(nth),
             fluid: part(f64::from(nth)),
@@ -114,6 +118,10 @@ fn state() -> State<2> {
         top_speed: 9.5,
         boundary_speed: 8.5,
         contact: ContactLoads {
+            last_impulses: vec![Vector3::x()],
+            impulses: vec![Vector3::y()],
+            energy: 0.5,
+            energy_made: -0.01,
             wrenches: vec![Wrench { force: vectors(7.0, 1)[0], torque: vectors(7.5, 1)[0] }],
             contacts: Vec::new(),
             minimum_gap: Some(MinimumGap { body: 0, partner: Partner::Wall(2), gap: 0.01 }),

@@ -33,6 +33,14 @@ pub enum StepError {
         /// What is accepted.
         tolerance: f64,
     },
+    /// The step is too long for the contact of bodies.
+    #[error(
+        "contact is not resolved in time: the step changes its energy {excess:.1e} times as much as is accepted"
+    )]
+    ContactNotResolved {
+        /// Error in the energy over what is accepted.
+        excess: f64,
+    },
     /// The fixed-point iteration for the poses did not converge.
     #[error(
         "the poses of the bodies and the flow did not come to agree within {iterations} iterations"

@@ -1,6 +1,7 @@
 //! The end of a step: loads, error, and the level it leads to, with the mesh where the bodies get to.
 
 use super::configuration::StepConfiguration;
+use super::contact_energy::acceleration;
 use super::context::StepContext;
 use super::coupled_flow::CoupledFlow;
 use super::error::StepError;
@@ -54,12 +55,20 @@ impl<const D: usize> StepContext<'_, D> {
             let errors = pose_errors(state, &history.step, &reached);
             error = error.max(stepper.gap_error(self.gaps(), state, &reached, &errors));
         }
-        let report = StepReport { loads: loads.surfaces, iterations: flow.n_systems, error };
-        let end = ConvergedStep {
-            contact: stepper.with_minimum_gap(flow.contact, self.gaps(), state, &reached),
-            solution: flow.solution,
-            poses: reached,
+        let contact = flow
+            .contact
+            .after(&state.contact, |force, last| history.step.bdf.increment(force, last));
+        let mut contact = stepper.with_minimum_gap(contact, self.gaps(), state, &reached);
+        let energy = self.contact_energy(configuration, &flow.solution.twists, &reached, &contact);
+        contact.energy = energy.stored;
+        contact.energy_made = state.contact.energy_made + energy.made;
+        let report = StepReport {
+            loads: loads.surfaces,
+            iterations: flow.n_systems,
+            error,
+            contact_error: energy.error,
         };
+        let end = ConvergedStep { contact, solution: flow.solution, poses: reached };
         let level = self.new_level(work, configuration, end, &loads.propulsion)?;
         Ok(StepResult { level, report })
     }
@@ -87,11 +96,7 @@ impl<const D: usize> StepContext<'_, D> {
             time: history.step.time,
             step: bdf.step,
             rates: Some(rates.map(|(new, older)| new * bdf.next + older).collect()),
-            accelerations: twists
-                .map(|(twist, body)| {
-                    Twist::from_vector(&(twist.to_vector() * bdf.next + body.history))
-                })
-                .collect(),
+            accelerations: twists.map(|(twist, body)| acceleration(bdf, twist, body)).collect(),
             nodes,
             poses,
             contact,

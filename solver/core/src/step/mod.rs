@@ -4,6 +4,7 @@
 //! the flow on one configuration, steady or in a step.
 
 mod configuration;
+mod contact_energy;
 mod context;
 mod coupled_flow;
 mod error;

@@ -73,6 +73,8 @@ pub struct StepReport {
     /// Estimate of the error of the step, relative to the largest speed, or ten times that of the smallest gap, relative to
     /// it, where that is more; zero for a step of first order.
     pub error: f64,
+    /// Error of the step in the energy of bodies in contact, over what is accepted; zero without contact or inertia.
+    pub contact_error: f64,
 }
 
 /// What a step leads to.

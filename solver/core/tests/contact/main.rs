@@ -5,3 +5,4 @@ mod common;
 mod equilibria;
 mod pairs;
 mod random;
+mod rebound;

@@ -19,7 +19,7 @@ pub(super) struct Runs {
 }
 
 impl Runs {
-    /// Of n unknowns, of which `is_like_last` says whether one goes on with the run of the last.
+    /// Of n unknowns, of which `is_like_last` says whether one continues with the run of the last.
     fn new(n: usize, is_like_last: impl Fn(usize) -> bool) -> Self {
         let mut runs = Self { of_unknown: Vec::with_capacity(n), starts: Vec::new() };
         for unknown in 0..n {

@@ -23,7 +23,7 @@ struct Fingerprint {
 impl Fingerprints {
     /// The hash of the values of a matrix at a revision, taken once for each.
     ///
-    /// A revision alone does not tell whether the factors at hand are those of a matrix: assembled again
+    /// A revision alone does not show whether the factors at hand are those of a matrix: assembled again
     /// from the same terms it has equal values at another revision.
     pub fn hash_of(&mut self, revision: &Revision, hash: impl FnOnce() -> u64) -> u64 {
         let known = self.latest.as_ref().filter(|latest| latest.revision == *revision);

@@ -42,7 +42,7 @@ pub enum LinearError {
     /// A value of the matrix, the right-hand side or the solution is infinite or not a number.
     #[error("the matrix, the right-hand side or the solution is not finite")]
     NotFinite,
-    /// A solver cannot go on from what another one kept.
+    /// A solver cannot continue from what another one kept.
     #[error(transparent)]
     Foreign(#[from] ForeignMemory),
 }

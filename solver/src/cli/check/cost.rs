@@ -210,7 +210,7 @@ fn warn_of_output(output: f64) {
             .to_owned(),
         location: None,
     };
-    style::complain(&style::diagnostic(&warning));
+    style::complain(&warning.to_string());
 }
 
 fn bytes(size: f64) -> String {

@@ -7,16 +7,17 @@ use std::fmt::Write as _;
 use alewife_mesh::Quality;
 
 use crate::case::{
-    CaseFile, FlowModel, Model, Sweep, TimeSettings, number_table, printable, significant,
+    CaseFile, Convection, Diagnostic, FlowModel, Model, Severity, Sweep, TimeSettings,
+    number_table, printable, significant,
 };
-use crate::cli::engine::{self, threads, too_large};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::facts::{facts, one_line};
-use crate::cli::read::{CheckedCase, read_and_check};
+use crate::cli::read::{CheckedCase, read_and_check, tell};
 use crate::cli::style::{self, Ink, on_stdout, say};
 use crate::cli::sweep::check_points;
 use crate::observer::reset_peak_memory;
-use crate::run::{BodyRecoil, Dimension, RunError, Solve, recoils};
+use crate::run::{BodyRecoil, Dimension, RunError, Solve, build_mesh, recoils};
+use crate::runner::{threads, too_large};
 use crate::timing::cpu_seconds;
 
 /// How far a case is looked at.
@@ -89,7 +90,7 @@ where
 {
     reset_peak_memory();
     let (before, model) = (cpu_seconds(), &file.model);
-    let mesh = engine::build_mesh::<D>(model).map_err(|error| too_large::failure(file, error))?;
+    let mesh = build_mesh::<D>(model).map_err(|error| too_large(file, error))?;
     let seconds = cpu_seconds() - before;
     say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
     let quality = Dimension::<D>::quality(&mesh);
@@ -98,6 +99,9 @@ where
     }
     for line in cell_numbers(model, &quality) {
         say(&format!("  {line}"));
+    }
+    if let Some(warning) = long_steps(file, &quality) {
+        tell(&[warning]);
     }
     if depth >= Depth::Step {
         let title = on_stdout(Ink::Bold, "cost, by one step that was made");
@@ -133,9 +137,7 @@ fn check_sweep(argument: &str) -> Result<(), Failure> {
     let n = sweep.n_points();
     let warnings = check_points(&sweep, 0..n)?;
     say(&format!("\nsweep of {n} points over {}: all are valid", sweep.keys().join(", ")));
-    if !warnings.is_empty() {
-        style::complain(&style::diagnostics(&warnings));
-    }
+    tell(&warnings);
     Ok(())
 }
 
@@ -164,6 +166,42 @@ fn recoil_line(recoil: &BodyRecoil) -> String {
         motion.largest_angular_velocity.to_degrees(),
         motion.rms_angular_velocity.to_degrees(),
     )
+}
+
+/// A warning of fixed steps in which fluid at the expected speed crosses several cells.
+fn long_steps<const D: usize>(file: &CaseFile, quality: &Quality<D>) -> Option<Diagnostic> {
+    let case = file.case();
+    let TimeSettings::Unsteady(time) = &case.time else { return None };
+    let speed = file.model.expected_speed()?;
+    let cfl = speed * time.step / quality.shortest_edge;
+    let most = Convection::LARGEST_CFL;
+    let is_convected = case.fluid.model == FlowModel::NavierStokes;
+    if !is_convected || time.adaptive.is_some() || cfl <= most {
+        return None;
+    }
+    let shorter = significant(time.step * most / cfl);
+    let help = match time.convection {
+        Convection::Extrapolated => format!(
+            "extrapolated convection was shown to hold up to {most}: write steps of {shorter} or less, larger \
+             cells where the flow is fast, or time.unsteady.adaptive"
+        ),
+        Convection::Newton => format!(
+            "what changes within a step is not resolved in time: compare with a run in steps of {shorter}, or \
+             let time.unsteady.adaptive choose them"
+        ),
+    };
+    let key = "time.unsteady.step";
+    Some(Diagnostic {
+        severity: Severity::Warning,
+        key: key.to_owned(),
+        message: format!(
+            "the CFL number is up to {} at the speed {} in the shortest cell",
+            significant(cfl),
+            significant(speed)
+        ),
+        help,
+        location: file.location(key),
+    })
 }
 
 /// CFL number and cell Reynolds number at the expected speed.

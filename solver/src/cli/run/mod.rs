@@ -1,10 +1,8 @@
 //! `run`: one case, from where it begins or continues to what comes out.
 
-mod continuation;
-mod live;
 mod results;
 #[expect(clippy::module_inception, reason = "the command itself is what the room is named after")]
 mod run;
 
 pub use results::print_comparisons;
-pub use run::{Options, PointRun, quoted, run, run_file};
+pub use run::{Options, command, run, run_plan};

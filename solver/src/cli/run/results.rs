@@ -2,8 +2,21 @@
 
 use crate::case::{Model, significant};
 use crate::cli::style::{Ink, on_stdout, say};
+use crate::observer::warnings;
 use crate::run::RunSummary;
 use crate::validation::{Comparison, Verdict, comparison_table};
+
+/// Prints what a run warned of, however little it says otherwise.
+pub fn tell_warnings() {
+    let all = warnings();
+    let number = match all.len() {
+        0 => return,
+        1 => "1 warning".to_owned(),
+        n => format!("{n} warnings"),
+    };
+    say(&format!("{}, in status.json, too:", on_stdout(Ink::Yellow, &number)));
+    all.iter().for_each(|one| say(&format!("  {}", one.line())));
+}
 
 /// Prints by how much the flow crosses cells at most, for a flow with convection.
 pub fn tell_cell_numbers(outcome: &RunSummary) {

@@ -18,7 +18,7 @@ Examples:
   alewife sweep collect sweeps/my --quantity squirmer.velocity.x --quantity 'mean squirmer.power'
 
 One row a point: what it sets, how it ended, quantities, then for each reference what was computed and
-the verdict, then unknowns and CPU seconds. Statistics are final (the default), mean, max, min, rms and
+the verdict, then unknowns, CPU seconds and the number of warnings. Statistics are final (the default), mean, max, min, rms and
 range.")]
 pub struct Options {
     /// Directory of the sweep

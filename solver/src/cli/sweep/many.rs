@@ -12,10 +12,10 @@ use super::points::check_points;
 use super::run_options::Options;
 use super::swept::directory_of;
 use crate::case::Sweep;
-use crate::cli::engine::{SignalWatch, WallLimit, threads};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::style::{self, complain, say};
-use crate::observer::{STOP, Tally};
+use crate::observer::{STOP, Status, Tally};
+use crate::runner::{SignalWatch, WallLimit, threads};
 use crate::sweep::{
     Ended, Ending, Launch, Plan, PointFailure, PointState, SweepDirectory, run_children, stand,
 };
@@ -44,7 +44,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let started = Instant::now();
     let n_threads = options.threads.unwrap_or(1);
     let jobs = n_jobs(options.jobs, n_threads)?;
-    let end = WallLimit::end(options.max_walltime.as_deref())?;
+    let end = WallLimit::end(options.max_walltime);
     let sweep = options.swept.read()?;
     let range = match options.index {
         Some(index) => index.range(sweep.n_points())?,
@@ -117,7 +117,7 @@ fn n_jobs(asked: Option<usize>, n_threads: usize) -> Result<usize, Failure> {
 fn directory(options: &Options, sweep: &Sweep) -> Result<SweepDirectory, Failure> {
     let first = sweep.case(0)?;
     let plan = Plan::new(sweep, first.case()).map_err(std::io::Error::from)?;
-    Ok(SweepDirectory::create(&directory_of(options.out.as_ref(), sweep), plan)?)
+    Ok(SweepDirectory::create(&directory_of(options.out.as_ref(), sweep), plan, sweep)?)
 }
 
 /// The points of a call to be made, and the score of the others.
@@ -152,10 +152,16 @@ struct Calls<'a> {
 
 impl Calls<'_> {
     fn launch(&self, index: usize) -> Launch {
-        match stand(self.directory, index).state {
+        let stand = stand(self.directory, index);
+        match stand.state {
             PointState::Finished => return Launch::IsDone,
             PointState::Running => return Launch::Busy,
             PointState::Missing | PointState::Stopped | PointState::Failed => {}
+        }
+        // Another process of this sweep has run it since the call began
+        if let Some(failure) = stand.failure.filter(|one| one.is_for_good() && !self.options.retry)
+        {
+            return Launch::HasFailed(failure);
         }
         let left = self.end.map(|end| end.saturating_duration_since(Instant::now()));
         if left.is_some_and(|left| left < LEAST_TIME) {
@@ -170,6 +176,9 @@ impl Calls<'_> {
         command.arg("--out").arg(self.directory.path());
         command.args(["--index", &(index + 1).to_string()]);
         command.args(["--threads", &self.n_threads.to_string()]);
+        if self.options.retry {
+            command.arg("--retry");
+        }
         command.args(["--parent", &std::process::id().to_string()]);
         if let Some(left) = left {
             command.args(["--max-walltime", &format!("{} s", left.as_secs_f64())]);
@@ -233,7 +242,8 @@ fn tell_beginning(options: &Options, directory: &SweepDirectory, score: &Score, 
 fn tell_end(directory: &SweepDirectory, score: &Score, n: usize, elapsed: Duration) {
     let finished = score.finished;
     let seconds: f64 = (0..directory.n_points())
-        .filter_map(|index| stand(directory, index).status?.cpu_seconds.get("total").copied())
+        .filter_map(|index| Status::read(&directory.point(index)).ok())
+        .filter_map(|status| status.cpu_seconds.get("total").copied())
         .sum();
     let failed = match score.failed.len() {
         0 => String::new(),
@@ -258,7 +268,7 @@ fn tell_end(directory: &SweepDirectory, score: &Score, n: usize, elapsed: Durati
 }
 
 /// The code of a point that failed.
-fn exit_of(failure: &PointFailure) -> Exit {
+pub fn exit_of(failure: &PointFailure) -> Exit {
     let known = [Exit::Diverged, Exit::Mesh, Exit::BadCase, Exit::NoInput, Exit::InputOutput];
     let more = [Exit::NoProgress, Exit::Usage];
     let all = known.into_iter().chain(more);

@@ -1,12 +1,22 @@
 //! One point of a sweep, run by this very process.
 
+use std::path::Path;
+use std::time::Duration;
+
+use super::many;
 use super::points::check_points;
 use super::run_options::Options;
 use super::swept::directory_of;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::run::{self, PointRun};
-use crate::cli::style::{self, complain, say};
-use crate::sweep::{Plan, PointFailure, PointState, SweepDirectory, stand};
+use crate::cli::read::tell;
+use crate::cli::run::run_plan;
+use crate::cli::style::{complain, say};
+use crate::observer::{LockError, RunDirectory, RunDirectoryError, RunLock};
+use crate::runner::RunPlan;
+use crate::sweep::{Plan, PointFailure, PointState, SweepDirectory, stand_of_own};
+
+/// How often it is looked whether another process has given a point free.
+const LOOK_EVERY: Duration = Duration::from_millis(200);
 
 /// Runs the point of an index from 0.
 pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
@@ -17,36 +27,72 @@ pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
         named.range(all.len())?;
     }
     let warnings = check_points(&sweep, index..index + 1)?;
-    if !warnings.is_empty() && options.parent.is_none() {
-        complain(&style::diagnostics(&warnings));
+    if options.parent.is_none() {
+        tell(&warnings);
     }
     let file = sweep.case(index)?;
     let first = if index == 0 { file.clone() } else { sweep.case(0)? };
     let plan = Plan::new(&sweep, first.case()).map_err(std::io::Error::from)?;
-    let directory = SweepDirectory::create(&directory_of(options.out.as_ref(), &sweep), plan)?;
-    let (out, before) = (directory.point(index), stand(&directory, index));
+    let directory =
+        SweepDirectory::create(&directory_of(options.out.as_ref(), &sweep), plan, &sweep)?;
+    // Nobody else decides on the point from here on, until its failure is written, too
+    let (out, lock) = (directory.point(index), hold(&directory.point(index), options)?);
+    let before = stand_of_own(&directory, index);
     if before.state == PointState::Finished {
         say(&format!("{} has come to its end before", out.display()));
         return Ok(Exit::Done);
     }
+    if let Some(failure) = before.failure.as_ref().filter(|failure| is_kept(failure, options)) {
+        return Err(Failure::new(many::exit_of(failure), failure.line()));
+    }
     PointFailure::forget(&directory, index)?;
-    let asked = run::Options::of_point(PointRun {
-        out,
+    let plan = RunPlan {
+        warnings,
+        lock: Some(lock),
         threads: options.threads,
-        max_walltime: options.max_walltime.clone(),
+        continues: true,
         overwrite: before.has_failed_run(),
+        max_walltime: options.max_walltime,
         quiet: options.quiet || options.parent.is_some(),
-    });
-    run::run_file(&asked, &file).inspect_err(|failure| {
+        ..RunPlan::new(file, out)
+    };
+    run_plan(&plan, "the same call again continues").inspect_err(|failure| {
         if failure.exit != Exit::Stopped {
-            let reason = without_colours(&failure.message);
-            let failure = PointFailure { exit: Some(failure.exit as u8), reason };
+            let reason = failure.message.clone();
+            let failure = PointFailure::new(Some(failure.exit as u8), reason);
             // Where it cannot be written the point is run again
             if let Err(error) = failure.write(&directory, index) {
-                complain(&style::error(&error.to_string()));
+                complain(&format!("error: {error}"));
             }
         }
     })
+}
+
+/// Holds the directory of a point. A process of a sweep has other points to run; one of a single point waits.
+fn hold(out: &Path, options: &Options) -> Result<RunLock, Failure> {
+    let mut has_told = false;
+    loop {
+        match RunDirectory::hold(out) {
+            Err(RunDirectoryError::Lock(error @ LockError::InUse { .. })) => {
+                if options.parent.is_some() {
+                    return Err(Failure::new(Exit::InUse, error.to_string()));
+                }
+                if !has_told && !options.quiet {
+                    complain(&format!("{error}: waits for it"));
+                }
+                has_told = true;
+                std::thread::sleep(LOOK_EVERY);
+            }
+            held => return Ok(held?),
+        }
+    }
+}
+
+/// Whether a failure that is known stands: that of a directory that holds another point, and of a run that would
+/// fail again, unless this call is to run it.
+fn is_kept(failure: &PointFailure, options: &Options) -> bool {
+    let is_asked = options.retry || options.parent.is_none();
+    failure.is_for_good() && (!is_asked || failure.is_of_another_case)
 }
 
 /// Has this process asked to stop when the one that runs the sweep is killed.
@@ -61,25 +107,4 @@ fn stop_with(parent: Option<u32>) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::new(Exit::Stopped, "the process that ran the sweep is gone"))
-}
-
-/// A message as it is written to files.
-fn without_colours(message: &str) -> String {
-    let mut text = String::new();
-    for (nth, part) in message.split("\x1b[").enumerate() {
-        let rest = if nth == 0 { part } else { part.split_once('m').map_or("", |(_, rest)| rest) };
-        text += rest;
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::without_colours;
-
-    #[test]
-    fn colours_are_left_out() {
-        assert_eq!(without_colours("\x1b[1;31merror\x1b[0m: m"), "error: m");
-        assert_eq!(without_colours("plain"), "plain");
-    }
 }

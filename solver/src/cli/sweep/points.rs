@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::case::{Diagnostic, Severity, Sweep};
-use crate::cli::engine::threads;
+use crate::case::{Diagnostic, Severity, Sweep, at_rest};
 use crate::cli::exit::Failure;
-use crate::cli::style;
+use crate::runner::threads;
 
 /// Different mistakes that are shown at most.
 const MOST_SHOWN: usize = 10;
@@ -56,10 +55,11 @@ type PointCheck = Result<Vec<Diagnostic>, Failure>;
 
 fn check(sweep: &Sweep, index: usize) -> PointCheck {
     let file = sweep.case(index)?;
-    let found = sweep.check(&file);
+    let mut found = sweep.check(&file);
     if found.iter().any(|one| one.severity == Severity::Error) {
         return Err(Failure::wrong(&found));
     }
+    found.extend(at_rest(&file));
     Ok(found)
 }
 
@@ -98,7 +98,7 @@ fn failure_of(sweep: &Sweep, wrong: Vec<Wrong>) -> Option<Failure> {
     }
     let n = sweep.n_points();
     let verb = if n_wrong == 1 { "is" } else { "are" };
-    texts.push(style::error(&format!("{n_wrong} of {n} points {verb} wrong; nothing was run")));
+    texts.push(format!("error: {n_wrong} of {n} points {verb} wrong; nothing was run"));
     Some(Failure { exit, message: texts.join("\n\n") })
 }
 

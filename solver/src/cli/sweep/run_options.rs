@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::index::Index;
 use super::swept::Swept;
+use crate::case::WallTime;
 
 /// What `sweep run` is asked for.
 #[derive(Debug, Args)]
@@ -37,7 +38,7 @@ pub struct Options {
     /// Stop in time for checkpoints within this time on the clock, such as "2 h"; by default the end
     /// of the batch job
     #[arg(long, value_name = "TIME")]
-    pub max_walltime: Option<String>,
+    pub max_walltime: Option<WallTime>,
     /// Run points again that failed and would, with the same program, fail in the same way
     #[arg(long)]
     pub retry: bool,

@@ -7,7 +7,7 @@ use clap::Args;
 use super::points::check_points;
 use super::swept::{Swept, directory_of};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::run::quoted;
+use crate::cli::run;
 use crate::cli::style::say;
 use crate::sweep::{ArrayScript, MOST_TASKS};
 
@@ -91,13 +91,10 @@ fn job_name(case: &str) -> String {
 
 /// The command of a task, without what differs from task to task.
 fn command(options: &Options, out: &std::path::Path) -> String {
-    let program = std::env::args().next().unwrap_or_default();
-    let program = if program.is_empty() { "alewife" } else { &program };
-    let mut words =
-        vec![quoted(program), "sweep".into(), "run".into(), quoted(&options.swept.case)];
+    let mut words = vec!["sweep".to_owned(), "run".to_owned(), options.swept.case.clone()];
     for setting in &options.swept.set {
-        words.extend(["--set".into(), quoted(setting)]);
+        words.extend(["--set".to_owned(), setting.clone()]);
     }
-    words.extend(["--out".into(), quoted(&out.display().to_string())]);
-    words.join(" ")
+    words.extend(["--out".into(), out.display().to_string()]);
+    run::command(&words)
 }

@@ -3,13 +3,12 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use super::super::engine;
 use super::super::exit::{Exit, Failure};
 use crate::case::{Cadence, Case, CaseError, Model, Numbers, Output, Statistics};
 use crate::observer::{
     MESH_SIZE_FILE, Provenance, RunState, Status, executable, read_outcome, write_atomic,
 };
-use crate::run::{Dimension, RunSummary, Solve};
+use crate::run::{Dimension, RunSummary, Solve, build_mesh};
 use crate::validation::MeshSize;
 
 /// How often a row of a series is written for a run to be compared.
@@ -168,6 +167,6 @@ fn measured_in<const D: usize>(model: &Model) -> Result<MeshSize, Failure>
 where
     Dimension<D>: Solve<D>,
 {
-    let quality = Dimension::<D>::quality(&engine::build_mesh::<D>(model)?);
+    let quality = Dimension::<D>::quality(&build_mesh::<D>(model)?);
     Ok(MeshSize { cells: quality.n_cells, shortest_edge: quality.shortest_edge })
 }

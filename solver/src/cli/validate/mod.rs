@@ -10,13 +10,15 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::complete;
-use super::engine::{SignalWatch, threads};
 use super::exit::{Exit, Failure};
 use super::run::print_comparisons;
 use super::style::{Ink, complain, on_stdout, say};
 use crate::case::library;
+use crate::observer::start_log;
+use crate::runner::{SignalWatch, threads};
 use crate::validation::{
-    CaseReport, Comparison, ReportPage, comparisons_to_json, count_table, summary,
+    CaseReport, Comparison, ReportPage, comparisons_to_json, count_table, raise_coincidences,
+    summary,
 };
 use members::{Member, all_members};
 use report::{ReportFile, case_report};
@@ -36,7 +38,11 @@ Examples:
 A run that is kept is not made again by the same program for the same case, so that a long validation can be
 stopped and called again; with --report its page has a section a case, written as soon as the case is done.
 
-The exit code is 20 if a value is outside its tolerance or could not be computed, 65 if there is
+The band of a value is its tolerance: one that leaves it has changed. Its evidence is \"confirmed\" where it differs
+from a reference by no more than is uncertain in both, which --uncertainty estimates, and \"consistent to\" the
+difference otherwise.
+
+The exit code is 20 if a value is outside its band or could not be computed, 65 if there is
 nothing to compare with, and 75 if a signal stopped it: the cases done so far are printed then. A value
 that is known to be outside, for a reason that its reference gives, fails once it is within.")]
 pub struct Options {
@@ -89,6 +95,8 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     };
     let members = all_members(&names, options.quick)?;
     let n_threads = threads::start(options.threads)?;
+    // What runs warn of is in the status of those that are kept
+    start_log(None, -1)?;
 
     if members.is_empty() {
         let names = names.join(", ");
@@ -187,6 +195,10 @@ impl Validation {
                 _ => failure,
             })?;
             case.members.push(report);
+        }
+        raise_coincidences(case.members.iter_mut().flat_map(|report| &mut report.comparisons));
+        for (member, report) in members.iter().zip(&case.members) {
+            self.work.keep(member, &report.comparisons)?;
         }
         self.file.as_ref().map_or(Ok(()), |file| file.write(case))
     }

@@ -2,19 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use super::super::engine::{self, RunInto, SignalWatch};
 use super::super::exit::{Exit, Failure};
 use super::kept::{self, Found};
 use super::members::Member;
 use crate::case::{Case, CaseFile, Model, Severity, check};
-use crate::observer::{
-    COMPARISON_FILE, Earlier, Origin, Provenance, RunDirectory, Shown, Start, write_atomic,
-};
+use crate::observer::{Earlier, Origin, Provenance, RunDirectory, Shown, Start, begin_warnings};
 use crate::run::{RunError, RunSummary};
+use crate::runner::{self, RunInto, SignalWatch};
 use crate::step::FlowError;
 use crate::validation::{
     Companion, Comparison, MemberReport, Refinement, RunSize, coarser_settings, compare,
-    comparisons_to_json, not_computed, set_uncertainties,
+    no_companion, not_computed, set_uncertainties,
 };
 
 /// What the directories of companions end with.
@@ -129,15 +127,25 @@ impl Work {
             }
             _ => None,
         };
-        if let (Place::Kept { .. }, Some(directory)) = (&self.place, &directory) {
-            write_comparisons(directory, &comparisons)?;
-        }
+        self.keep(member, &comparisons)?;
         let made_by = made_by(directory.as_deref(), self.n_threads);
         Ok(MemberReport { name, size, companion, comparisons, made_by })
     }
 
+    /// Writes a comparison to the run it is of, where that is kept.
+    pub fn keep(&self, member: &Member, comparisons: &[Comparison]) -> Result<(), Failure> {
+        let directory = self.directory(&member.file, Which::Itself);
+        if let (Place::Kept { .. }, Some(directory)) = (&self.place, &directory) {
+            runner::write_comparisons(directory, comparisons)?;
+        }
+        Ok(())
+    }
+
     /// The run of a companion.
     fn companion_run(&self, member: &Member) -> Result<SizedRun, NoResult> {
+        if let Some(reason) = no_companion(member.file.case()) {
+            return Err(NoResult::Reported(reason.to_owned()));
+        }
         let settings = coarser_settings(member.file.case());
         let file = readable(&member.name, &settings).map_err(NoResult::Reported)?;
         let directory = self.directory(&file, Which::Companion);
@@ -167,7 +175,7 @@ impl Work {
     ) -> Result<RunSummary, NoResult> {
         match (&self.place, directory) {
             (Place::Memory, _) | (_, None) => {
-                Ok(engine::simulate(&file.model, self.watch.clone())?)
+                Ok(runner::simulate(&file.model, self.watch.clone())?)
             }
             (Place::Read(_), Some(directory)) => read(file.case(), which, directory),
             (Place::Kept { by_any_program, .. }, Some(directory)) => {
@@ -195,8 +203,9 @@ impl Work {
             RunDirectory::create(place, &model.case, start, earlier).map_err(Failure::from)?;
         let shown = Shown { quiet: true, live: None };
         let watch = self.watch.clone();
+        begin_warnings(Vec::new());
         let run = RunInto { directory: &directory, shown, watch, limit: None };
-        Ok(engine::simulate_afresh(&model, run)?)
+        Ok(runner::simulate_afresh(&model, run)?)
     }
 }
 
@@ -231,13 +240,6 @@ fn companion(
     };
     set_uncertainties(values, &compared, &refinement);
     run.map(|run| Companion { size: run.size, refinement })
-}
-
-/// Writes what `run` does of its comparison.
-fn write_comparisons(directory: &Path, all: &[Comparison]) -> std::io::Result<()> {
-    let mut json = comparisons_to_json(all);
-    json["provenance"] = serde_json::to_value(Provenance::read(directory)?.origin)?;
-    write_atomic(&directory.join(COMPARISON_FILE), format!("{json:#}\n").as_bytes())
 }
 
 /// A case with settings, or the first of what is wrong with it.

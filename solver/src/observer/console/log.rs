@@ -16,6 +16,7 @@ use tracing_subscriber::util::SubscriberInitExt;
 use super::terminal::{AboveBars, TERMINAL};
 use crate::case::significant;
 use crate::observer::system::AtPath;
+use crate::observer::warnings;
 
 /// The file JSON lines go to just now. One process has one log, but may make several runs.
 static FILE: Mutex<Option<File>> = Mutex::new(None);
@@ -59,7 +60,12 @@ pub fn start_log(directory: Option<&Path>, verbosity: i8) -> io::Result<()> {
             Some(File::options().append(true).create(true).open(&path).at(&path)?)
         }
     };
-    let _ = tracing_subscriber::registry().with(text).with(json).with(Latest).try_init();
+    let _ = tracing_subscriber::registry()
+        .with(text)
+        .with(json)
+        .with(Latest)
+        .with(Collected)
+        .try_init();
     Ok(())
 }
 
@@ -99,6 +105,20 @@ impl<S: Subscriber> Layer<S> for Latest {
             let mut words = Words::default();
             event.record(&mut words);
             TERMINAL.note(&(words.message + &words.fields));
+        }
+    }
+}
+
+/// Adds warnings to the list of the run, whatever the log shows.
+struct Collected;
+
+impl<S: Subscriber> Layer<S> for Collected {
+    fn on_event(&self, event: &Event<'_>, _context: Context<'_, S>) {
+        let is_ours = event.metadata().target().starts_with("alewife");
+        if is_ours && *event.metadata().level() == Level::WARN {
+            let mut words = Words::default();
+            event.record(&mut words);
+            warnings::add(words.message + &words.fields);
         }
     }
 }

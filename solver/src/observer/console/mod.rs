@@ -8,4 +8,4 @@ mod terminal;
 pub use log::start_log;
 pub use progress::Progress;
 pub use tally::Tally;
-pub use terminal::columns_of;
+pub use terminal::{columns_of, print_line};

@@ -23,6 +23,11 @@ enum Notes {
     Lines { last: Instant },
 }
 
+/// Writes one line to stderr, above any bar.
+pub fn print_line(text: &str) {
+    TERMINAL.line(text);
+}
+
 /// See [`TERMINAL`].
 pub struct Terminal {
     bars: MultiProgress,

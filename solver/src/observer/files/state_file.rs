@@ -74,8 +74,7 @@ fn read_content<const D: usize>(bytes: &[u8]) -> io::Result<SavedState<D>> {
     let (version, checksum) = (number(16), number(20));
     let length = u64::from(number(24)) | u64::from(number(28)) << 32;
     if version != STATE_VERSION {
-        let found = format!("its version is {version}, and {STATE_VERSION} is wanted");
-        return Err(damaged(&found));
+        return Err(damaged(&of_another_version(version)));
     }
     if length != content.len() as u64 || crc32fast::hash(content) != checksum {
         return Err(damaged("its checksum is not that of its content: it is damaged"));
@@ -85,6 +84,19 @@ fn read_content<const D: usize>(bytes: &[u8]) -> io::Result<SavedState<D>> {
     let size = size.ok_or_else(|| damaged("it does not say its length: it is damaged"))?;
     let numbers = zstd::bulk::decompress(content, size)?;
     postcard::from_bytes(&numbers).map_err(|error| damaged(&format!("this is no state: {error}")))
+}
+
+/// Which program reads a state of a version that this one does not read.
+fn of_another_version(version: u32) -> String {
+    let this = env!("CARGO_PKG_VERSION");
+    let which = if version > STATE_VERSION {
+        format!("a newer alewife than this one, {this}, wrote it and reads it")
+    } else {
+        format!("an older alewife than this one, {this}, wrote it and reads it")
+    };
+    format!(
+        "this is a state of version {version}, and version {STATE_VERSION} is read here: {which};          `provenance.json` of its run has the one that did (`alewife`, `git`)"
+    )
 }
 
 #[cfg(test)]

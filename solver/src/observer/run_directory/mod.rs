@@ -5,6 +5,8 @@ pub(super) mod checkpoint_list;
 mod history;
 mod kept;
 mod legs;
+mod lock_reach;
+mod marker;
 mod provenance;
 mod restarts;
 #[expect(clippy::module_inception, reason = "the directory itself is what the room is named after")]
@@ -28,7 +30,7 @@ pub use run_directory::{
 };
 pub(super) use run_directory::{FAILURE_FLOW, remove_failure};
 pub use run_directory_error::RunDirectoryError;
-pub use run_lock::{LockError, RunLock};
+pub use run_lock::{LOCK_FILE, LockError, RunLock};
 pub(super) use series_rows::SERIES_FILE;
 pub use series_rows::read_series;
 pub use status::{RunState, Status, StatusFile};

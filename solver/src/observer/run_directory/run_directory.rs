@@ -6,20 +6,15 @@ use std::path::{Path, PathBuf};
 
 use super::bodies;
 use super::checkpoint_list::{self, REQUEST, checkpoints};
+use super::marker::{check_is_for_runs, is_a_run, mark};
 use super::provenance::{Origin, Point, Provenance};
 use super::run_directory_error::RunDirectoryError;
-use super::run_lock::RunLock;
+use super::run_lock::{LockError, RunLock};
 use super::status::{RunState, Status};
 use crate::case::{Case, MeshFile};
 use crate::observer::system::{
     AtPath, UNFINISHED, names_in, remove_if_empty, remove_if_there, write_whole,
 };
-
-/// The file by which a run directory is known.
-const MARKER_FILE: &str = ".alewife-run";
-
-/// What it says.
-const MARKER: &str = "This directory holds a run of alewife; another run may replace its files.\n";
 
 /// Files of a run. Only these, and those of its folders, are ever removed.
 const FILES: [&str; 13] = [
@@ -113,21 +108,13 @@ impl RunDirectory {
         start: Start,
         earlier: Earlier,
     ) -> Result<Self, RunDirectoryError> {
-        if path.exists() && !path.is_dir() {
-            return Err(RunDirectoryError::NotADirectory { path: path.to_owned() });
-        }
-        fs::create_dir_all(path)
-            .map_err(|source| RunDirectoryError::NotMade { path: path.to_owned(), source })?;
-        if !is_a_run(path) {
-            if fs::read_dir(path).at(path)?.next().is_some() {
-                return Err(RunDirectoryError::NotARun { path: path.to_owned() });
-            }
-            write_whole(&path.join(MARKER_FILE), MARKER.as_bytes())?;
-        }
         let lock = match start.lock {
             Some(lock) => lock,
-            None => RunLock::take(path)?,
+            None => Self::hold(path)?,
         };
+        if !is_a_run(path) {
+            mark(path)?;
+        }
         if earlier == Earlier::Keep {
             check_replaceable(path)?;
         }
@@ -152,12 +139,33 @@ impl RunDirectory {
         Ok(Self { path: path.to_owned(), case_text, provenance, _lock: lock })
     }
 
-    /// Holds the directory of a run before anything is read from it; nothing where there is none yet.
+    /// Holds the directory of a run, made if it is not there, before anything is read from it. Where nothing is
+    /// made in it, it goes with the lock.
     ///
     /// # Errors
-    /// When another process has it, or the file system refuses.
-    pub fn hold(path: &Path) -> Result<Option<RunLock>, RunDirectoryError> {
-        Ok(is_a_run(path).then(|| RunLock::take(path)).transpose()?)
+    /// When another process has it, it holds files of others, or the file system refuses.
+    pub fn hold(path: &Path) -> Result<RunLock, RunDirectoryError> {
+        if path.exists() && !path.is_dir() {
+            return Err(RunDirectoryError::NotADirectory { path: path.to_owned() });
+        }
+        loop {
+            fs::create_dir_all(path)
+                .map_err(|source| RunDirectoryError::NotMade { path: path.to_owned(), source })?;
+            // Before a lock is put among files of others, and once nobody else changes them
+            check_is_for_runs(path)?;
+            match RunLock::take(path) {
+                // It went with the lock of another process
+                Err(LockError::Io(error)) if error.kind() == io::ErrorKind::NotFound => {}
+                Err(LockError::NotALock { .. }) if !is_a_run(path) => {
+                    return Err(RunDirectoryError::NotARun { path: path.to_owned() });
+                }
+                taken => {
+                    let lock = taken?;
+                    check_is_for_runs(path)?;
+                    return Ok(lock);
+                }
+            }
+        }
     }
 
     /// Where it is.
@@ -177,13 +185,6 @@ impl RunDirectory {
     pub fn provenance(&self) -> &Provenance {
         &self.provenance
     }
-}
-
-/// Whether the marker of a run is there.
-fn is_a_run(path: &Path) -> bool {
-    let marker = path.join(MARKER_FILE);
-    fs::symlink_metadata(&marker).is_ok_and(|found| found.is_file())
-        && fs::read(&marker).is_ok_and(|text| text == MARKER.as_bytes())
 }
 
 /// Whether the run in a directory, if there is one, may go without being asked for.
@@ -364,9 +365,9 @@ mod tests {
     fn a_state_belongs_to_the_run_it_lies_in() {
         let place = tempfile::tempdir().unwrap();
         drop(create(place.path(), Earlier::Keep).unwrap());
-        let run = Some(place.path());
-        assert_eq!(run_of_state(&place.path().join("checkpoints/000010.state")), run);
-        assert_eq!(run_of_state(&place.path().join("failure/last.state")), run);
+        for state in ["checkpoints/000010.state", "failure/last.state"] {
+            assert_eq!(run_of_state(&place.path().join(state)), Some(place.path()));
+        }
         assert_eq!(run_of_state(&place.path().join("other/last.state")), None);
     }
 }

@@ -12,6 +12,7 @@ use super::restarts::Restarts;
 use super::write_times::WriteTimes;
 use crate::case::{Case, TimeSettings};
 use crate::observer::system::{process, write_atomic, write_whole};
+use crate::observer::warnings::{self, Warning};
 use crate::run::{LastState, Observer, RunError, Snapshot};
 use crate::step::FlowError;
 use crate::timing::{Stage, Timing, cpu_seconds};
@@ -78,6 +79,9 @@ pub struct Status {
     /// Whether it ended for a reason outside of it, and continues when it is run again.
     #[serde(default)]
     pub is_interrupted: bool,
+    /// What the run warned of so far.
+    #[serde(default)]
+    pub warnings: Vec<Warning>,
     /// The process.
     pub pid: u32,
     /// When this was written (UTC).
@@ -93,6 +97,43 @@ impl Status {
         let made = self.time - time;
         let to_go = (self.end? - self.time).max(0.0);
         (made > 0.0).then(|| taken * to_go / made)
+    }
+
+    /// That of a run whose own is lost: it was under way, and its checkpoints tell more.
+    #[must_use]
+    pub fn lost(case: &Case) -> Self {
+        Self::beginning(case, 0, 0.0)
+    }
+
+    /// That of a run which begins in this process, after so many steps up to a time (s).
+    fn beginning(case: &Case, step: usize, time: f64) -> Self {
+        let (steps, end) = match &case.time {
+            TimeSettings::Steady(_) => (None, None),
+            TimeSettings::Unsteady(settings) => {
+                let left = settings.n_steps().saturating_sub(settings.n_steps_to(time));
+                let steps = settings.adaptive.is_none().then_some(step + left);
+                (steps, Some(settings.end))
+            }
+        };
+        Self {
+            state: RunState::Running,
+            reason: None,
+            step,
+            steps,
+            time,
+            end,
+            dofs: 0,
+            cpu_seconds: BTreeMap::new(),
+            wall_seconds: BTreeMap::new(),
+            first_row: None,
+            peak_memory: None,
+            restarts: Restarts::default(),
+            longest_checkpoint: None,
+            is_interrupted: false,
+            warnings: Vec::new(),
+            pid: std::process::id(),
+            updated_at: String::new(),
+        }
     }
 
     /// The status of the run in `directory`.
@@ -127,33 +168,9 @@ impl StatusFile {
         history: Option<&History>,
         times: WriteTimes,
     ) -> io::Result<Self> {
-        let (steps, end) = match &case.time {
-            TimeSettings::Steady(_) => (None, None),
-            TimeSettings::Unsteady(settings) => {
-                let (step, time) = history.map_or((0, 0.0), |history| (history.step, history.time));
-                let left = settings.n_steps().saturating_sub(settings.n_steps_to(time));
-                let steps = settings.adaptive.is_none().then_some(step + left);
-                (steps, Some(settings.end))
-            }
-        };
-        let status = Status {
-            state: RunState::Running,
-            reason: None,
-            step: history.map_or(0, |history| history.step),
-            steps,
-            time: history.map_or(0.0, |history| history.time),
-            end,
-            dofs: 0,
-            cpu_seconds: BTreeMap::new(),
-            wall_seconds: BTreeMap::new(),
-            first_row: None,
-            peak_memory: None,
-            restarts: history.map_or_else(Restarts::default, |history| history.restarts),
-            longest_checkpoint: None,
-            is_interrupted: false,
-            pid: std::process::id(),
-            updated_at: String::new(),
-        };
+        let (step, time) = history.map_or((0, 0.0), |history| (history.step, history.time));
+        let restarts = history.map_or_else(Restarts::default, |history| history.restarts);
+        let status = Status { restarts, ..Status::beginning(case, step, time) };
         let now = Instant::now();
         let path = directory.join("status.json");
         let cpu_before = cpu_seconds();
@@ -170,6 +187,7 @@ impl StatusFile {
         self.status.cpu_seconds.insert("total".to_owned(), cpu);
         self.status.longest_checkpoint = self.times.longest().map(|time| time.as_secs_f64());
         self.status.peak_memory = process::peak_memory();
+        self.status.warnings = warnings::warnings();
         self.status.updated_at = process::now();
         let mut text = serde_json::to_vec_pretty(&self.status)?;
         text.push(b'\n');
@@ -182,6 +200,7 @@ impl<const D: usize> Observer<D> for StatusFile {
         self.status.step = snapshot.step;
         self.status.time = snapshot.time;
         self.status.dofs = snapshot.n_dofs;
+        warnings::reach(snapshot.time);
         let wall = self.started.elapsed().as_secs_f64();
         self.status.first_row.get_or_insert(FirstRow { time: snapshot.time, wall });
         by_stage(&mut self.status, snapshot.timing);

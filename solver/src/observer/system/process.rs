@@ -1,6 +1,6 @@
 //! What the operating system knows of this process: memory, host, and the clock on the wall.
 
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 /// Most memory this process ever held (bytes); `None` where the system does not report it.
 pub fn peak_memory() -> Option<u64> {
@@ -20,6 +20,11 @@ pub fn reset_peak_memory() {
 pub fn host_name() -> Option<String> {
     let name = std::fs::read_to_string("/proc/sys/kernel/hostname").ok()?;
     Some(name.trim().to_owned())
+}
+
+/// How long ago a time was; nothing of one that is to come.
+pub fn age(then: SystemTime) -> Option<Duration> {
+    SystemTime::now().duration_since(then).ok()
 }
 
 /// The present time in UTC, as `2026-01-31T12:34:56Z`.

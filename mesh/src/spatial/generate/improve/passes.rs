@@ -2,6 +2,7 @@
 
 use super::collapse::CollapseGoal;
 use super::improver::Improver;
+use crate::interrupt;
 use crate::spatial::generate::tetrahedra::Face;
 
 /// Part of the worst quality to which a collapse may lower it.
@@ -24,6 +25,9 @@ impl Improver<'_> {
         let mut neighbours = Vec::new();
         let mut short: Vec<RatedEdge> = Vec::new();
         for vertex in 0..self.mesh.end_of_vertices() {
+            if interrupt::is_requested() {
+                break;
+            }
             if self.mesh.around(vertex).is_empty() {
                 continue;
             }
@@ -48,6 +52,9 @@ impl Improver<'_> {
         let mut long = Vec::new();
         let mut neighbours = Vec::new();
         for vertex in 0..self.mesh.end_of_vertices() {
+            if interrupt::is_requested() {
+                return 0;
+            }
             if self.mesh.around(vertex).is_empty() {
                 continue;
             }
@@ -60,7 +67,8 @@ impl Improver<'_> {
             }
         }
         long.sort_by(|a, b| b.length.total_cmp(&a.length).then(a.ends.cmp(&b.ends)));
-        long.into_iter().filter(|edge| self.split_in_two(edge.ends)).count()
+        let edges = long.into_iter().take_while(|_| !interrupt::is_requested());
+        edges.filter(|edge| self.split_in_two(edge.ends)).count()
     }
 
     /// Whether an edge on a surface is too long for its curvature.
@@ -78,6 +86,9 @@ impl Improver<'_> {
         let mut n_swapped = 0;
         let (mut neighbours, mut shell) = (Vec::new(), Vec::new());
         for vertex in 0..self.mesh.end_of_vertices() {
+            if interrupt::is_requested() {
+                break;
+            }
             if self.mesh.around(vertex).is_empty() || !self.mesh.has_changed_since(vertex, since) {
                 continue;
             }
@@ -127,6 +138,9 @@ impl Improver<'_> {
         self.last_smoothing = self.mesh.tick();
         let mut n_moved = 0;
         for vertex in 0..self.mesh.end_of_vertices() {
+            if interrupt::is_requested() {
+                break;
+            }
             if self.mesh.around(vertex).is_empty() || !self.mesh.has_changed_since(vertex, since) {
                 continue;
             }

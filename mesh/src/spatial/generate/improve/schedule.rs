@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::improver::{Improver, Measure, Straight};
+use crate::interrupt;
 use crate::spatial::generate::tetrahedra::boundary_edges::INNER;
 
 /// Rounds of passes that give edges their lengths.
@@ -74,6 +75,9 @@ impl Improver<'_> {
         let cells: Vec<u32> = self.mesh.cells().collect();
         let mut shell = Vec::new();
         for cell in cells {
+            if interrupt::is_requested() {
+                return;
+            }
             let (vertices, tags) = (self.mesh.cell(cell), self.mesh.tags(cell));
             let mut ends = (0..4).filter(|local| tags[*local] != INNER).map(|i| vertices[i]);
             let (Some(a), Some(b), None) = (ends.next(), ends.next(), ends.next()) else {

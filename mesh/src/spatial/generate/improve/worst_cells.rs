@@ -2,6 +2,7 @@
 
 use super::collapse::CollapseGoal;
 use super::improver::Improver;
+use crate::interrupt;
 use crate::spatial::generate::tetrahedra::Face;
 use crate::spatial::generate::tetrahedra::measure::EDGES;
 
@@ -28,6 +29,9 @@ impl Improver<'_> {
         let cells: Vec<u32> = self.mesh.cells().collect();
         let mut all = Vec::new();
         for cell in cells {
+            if interrupt::is_requested() {
+                return 0;
+            }
             let quality = self.quality(cell);
             if quality < poor {
                 all.push(PoorCell { quality, cell, vertices: self.mesh.cell(cell) });
@@ -36,6 +40,9 @@ impl Improver<'_> {
         all.sort_by(|a, b| a.quality.total_cmp(&b.quality).then(a.cell.cmp(&b.cell)));
         let mut n_improved = 0;
         for PoorCell { cell, vertices, .. } in all {
+            if interrupt::is_requested() {
+                break;
+            }
             let is_poor = self.mesh.is_still(cell, vertices) && self.quality(cell) < poor;
             if is_poor && self.improve_cell(cell, poor, longest, split) {
                 n_improved += 1;

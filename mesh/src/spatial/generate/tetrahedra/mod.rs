@@ -366,12 +366,12 @@ impl Tetrahedra {
         self.qualities[cell as usize] = quality;
     }
 
-    /// The qualities of all cells are to be computed anew.
+    /// The qualities of all cells are to be computed again.
     pub fn forget_qualities(&mut self) {
         self.qualities.fill(f64::NAN);
     }
 
-    /// The qualities of these cells are to be computed anew.
+    /// The qualities of these cells are to be computed again.
     pub fn forget_around(&mut self, vertex: u32) {
         for cell in &self.around[vertex as usize] {
             self.qualities[*cell as usize] = f64::NAN;

@@ -7,7 +7,7 @@ use super::{gait, solid, spring};
 use crate::rules::Findings;
 use crate::rules::flow::boundary::check_factor;
 use crate::text::names::{LONGEST_NAME, is_word};
-use crate::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec, SwimmerKind};
+use crate::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
 
 /// Largest difference between a heading and the axis that is taken for rounding (rad).
 const HEADING_ROUNDING: f64 = 1e-3;
@@ -32,25 +32,12 @@ pub fn check(findings: &mut Findings<'_>) {
             (_, other) => check_name(findings, &format!("{key}.name"), &body.name, other.is_some()),
         }
         taken.entry(&body.name).or_insert(index);
-        // Radii of swimmers are looked at where they are written
-        if !has_radii_of_swimmer(findings, index) {
-            check_shape(findings, &format!("{key}.shape"), &body.shape);
-        }
-        let has_place = findings.vector(&format!("{key}.center"), &body.center);
-        if let Some(density) = body.density {
-            findings.not_negative(&format!("{key}.density"), density);
-        }
-        if let Some(size) = body.size {
-            findings.positive(&format!("{key}.size"), size);
-        }
-        if !body.force.is_empty() {
-            findings.vector(&format!("{key}.force"), &body.force);
-        }
+        check_shape(findings, &format!("{key}.shape"), &body.shape);
         check_density(findings, &key, body);
         check_motion(findings, &key, body);
         spring::check(findings, &key, body);
         gait::check(findings, &key, body);
-        if case.geometry == Geometry::Axisymmetric && has_place {
+        if case.geometry == Geometry::Axisymmetric && findings.is_vector(&body.center) {
             check_on_axis(findings, &key, body);
         }
     }
@@ -60,13 +47,6 @@ pub fn check(findings: &mut Findings<'_>) {
         check_name(findings, &format!("probe.{index}.name"), &probe.name, is_taken);
         taken.insert(&probe.name, usize::MAX);
     }
-}
-
-/// Whether the shape of a body is a radius of the swimmer it is made for.
-fn has_radii_of_swimmer(findings: &Findings<'_>, body: usize) -> bool {
-    let swimmer = findings.model().swimmer_of_body(body);
-    let kind = swimmer.map(|swimmer| &findings.case().swimmer[swimmer].kind);
-    matches!(kind, Some(SwimmerKind::LinkedSpheres { .. } | SwimmerKind::Star { .. }))
 }
 
 /// A body has the name of one that is made for a swimmer.
@@ -126,31 +106,14 @@ fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, is_taken: bool
     }
 }
 
-/// A shape that can stand in the case, of lengths that make one.
+/// Lengths that make a shape.
 pub(crate) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
-    let case = findings.case();
-    let geometry = case.geometry.name();
-    let allowed = ShapeSpec::names_in(case.geometry).join(", ");
-    let name = shape.name();
-    if !shape.geometries().contains(&case.geometry) {
-        findings.error(
-            key,
-            format!("a {name} cannot stand in a case with `geometry = \"{geometry}\"`"),
-            &format!("{geometry} shapes: {allowed}"),
-        );
-    }
     match shape {
-        ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
-            findings.positive(&format!("{key}.{name}.radius"), *radius);
-        }
-        ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
-            check_semi_axes(findings, key, name, semi_axes);
-        }
-        ShapeSpec::Ellipsoid { semi_axes } => check_semi_axes(findings, key, name, semi_axes),
-        ShapeSpec::Capsule { length, radius } => check_capsule(findings, key, *length, *radius),
-        ShapeSpec::Cylinder { radius, .. } => {
-            findings.positive(&format!("{key}.cylinder.radius"), *radius);
-        }
+        ShapeSpec::Capsule { length, radius } if *length <= 2.0 * radius => findings.error(
+            &format!("{key}.capsule.length"),
+            format!("the capsule is {length} long and its ends have the radius {radius}"),
+            "the length from end to end is larger than twice the radius",
+        ),
         ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
         ShapeSpec::Helix(helix) => solid::check_helix(findings, &format!("{key}.helix"), helix),
         ShapeSpec::Curve(curve) => solid::check_curve(findings, &format!("{key}.curve"), curve),
@@ -160,42 +123,14 @@ pub(crate) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
         ShapeSpec::Union(parts) => {
             solid::check_parts(findings, &format!("{key}.union"), parts, check_shape);
         }
-        // Its links are checked
-        ShapeSpec::Tube(_) => {}
-        ShapeSpec::Spline { points } => {
-            let key = format!("{key}.spline.points");
-            let n = points.len();
-            if n < 3 {
-                findings.error(
-                    &key,
-                    format!("a closed spline through {n} points has no inside"),
-                    "give at least 3 points, the first not repeated",
-                );
-            } else if signed_area(points) <= 0.0 {
-                findings.error(
-                    &key,
-                    "the points of the spline run clockwise".to_owned(),
-                    "list them counter-clockwise",
-                );
-            }
+        ShapeSpec::Spline { points } if points.len() > 2 && signed_area(points) <= 0.0 => {
+            findings.error(
+                &format!("{key}.spline.points"),
+                "the points of the spline run clockwise".to_owned(),
+                "list them counter-clockwise",
+            );
         }
-    }
-}
-
-fn check_capsule(findings: &mut Findings<'_>, key: &str, length: f64, radius: f64) {
-    findings.positive(&format!("{key}.capsule.radius"), radius);
-    if length <= 2.0 * radius {
-        findings.error(
-            &format!("{key}.capsule.length"),
-            format!("the capsule is {length} long and its ends have the radius {radius}"),
-            "the length from end to end is larger than twice the radius",
-        );
-    }
-}
-
-fn check_semi_axes(findings: &mut Findings<'_>, key: &str, name: &str, semi_axes: &[f64]) {
-    for (axis, length) in semi_axes.iter().enumerate() {
-        findings.positive(&format!("{key}.{name}.semi_axes.{axis}"), *length);
+        _ => {}
     }
 }
 
@@ -232,9 +167,6 @@ fn signed_area(points: &[[f64; 2]]) -> f64 {
 fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
     if let Motion::Imposed(imposed) = &body.motion {
         let motion = format!("{key}.motion.imposed");
-        if !imposed.velocity.is_empty() {
-            findings.vector(&format!("{motion}.velocity"), &imposed.velocity);
-        }
         if let Some(factor) = &imposed.factor {
             check_factor(findings, &format!("{motion}.factor"), factor);
         }

@@ -5,44 +5,14 @@ use std::f64::consts::TAU;
 use crate::rules::Findings;
 use crate::rules::flow::boundary::check_factor;
 use crate::{
-    AnguilliformGait, Body, CarangiformGait, FishShape, FlagellumGait, GaitSpec, Geometry,
-    PulsatingGait, ShapeSpec, SquirmerGait, TimeSettings,
+    AnguilliformGait, Body, CarangiformGait, FlagellumGait, GaitSpec, PulsatingGait, ShapeSpec,
+    SquirmerGait, TimeSettings,
 };
 
 /// Lengths of a fish or a flagellate.
 pub fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
-    let (name, lengths) = match shape {
-        ShapeSpec::Fish(fish) => (
-            "fish",
-            vec![
-                ("length", fish.length),
-                ("head_width", fish.head_width),
-                ("tail_width", fish.tail_width),
-                ("head_end", fish.head_end),
-                ("tail_start", fish.tail_start),
-                ("tip_radius", fish.tip_radius),
-                ("corner_radius", fish.corner_radius),
-            ],
-        ),
-        ShapeSpec::Flagellate(body) => (
-            "flagellate",
-            vec![
-                ("head.0", body.head[0]),
-                ("head.1", body.head[1]),
-                ("tail_length", body.tail_length),
-                ("thickness", body.thickness),
-                ("fillet", body.fillet.unwrap_or(body.thickness)),
-            ],
-        ),
-        _ => return,
-    };
-    if let ShapeSpec::Fish(FishShape { height: Some(height), .. }) = shape {
-        check_height(findings, &format!("{key}.fish.height"), *height);
-    }
-    for (field, value) in &lengths {
-        findings.positive(&format!("{key}.{name}.{field}"), *value);
-    }
-    if lengths.iter().any(|(_, value)| *value <= 0.0) || shape.profile().is_some() {
+    // Lengths that are not positive are refused already
+    if !findings.is_right(key) || shape.profile().is_some() {
         return;
     }
     match shape {
@@ -69,23 +39,12 @@ pub fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
             ),
             "make the tail thinner than the head",
         ),
-        _ => findings.error(
+        ShapeSpec::Flagellate(_) => findings.error(
             &format!("{key}.flagellate"),
             "these lengths make no flagellate".to_owned(),
             "make the tail longer than its thickness and its fillet, or the fillet smaller",
         ),
-    }
-}
-
-/// A height of sections is one across the plane.
-fn check_height(findings: &mut Findings<'_>, key: &str, height: f64) {
-    findings.positive(key, height);
-    if findings.case().geometry == Geometry::Planar {
-        findings.error(
-            key,
-            "a fish in the plane has no height".to_owned(),
-            "leave it out, or take geometry = \"spatial\"",
-        );
+        _ => {}
     }
 }
 
@@ -99,33 +58,9 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
             "write time.unsteady = { step = ..., end = ... }",
         );
     }
-    match gait {
-        GaitSpec::Squirmer(gait) => squirmer(findings, key, body, gait),
-        GaitSpec::Carangiform(gait) => {
-            fits(findings, key, body, matches!(body.shape, ShapeSpec::Fish(_)), "fish");
-            carangiform(findings, &format!("{key}.gait.carangiform"), gait);
-        }
-        GaitSpec::Anguilliform(gait) => {
-            fits(findings, key, body, matches!(body.shape, ShapeSpec::Fish(_)), "fish");
-            anguilliform(findings, &format!("{key}.gait.anguilliform"), gait);
-        }
-        GaitSpec::Flagellum(gait) => {
-            let is_flagellate = matches!(body.shape, ShapeSpec::Flagellate(_));
-            fits(findings, key, body, is_flagellate, "flagellate");
-            flagellum(findings, &format!("{key}.gait.flagellum"), body, gait);
-        }
-        GaitSpec::Pulsating(gait) => {
-            let is_round = body.is_round();
-            fits(findings, key, body, is_round, "disc or sphere");
-            pulsating(findings, &format!("{key}.gait.pulsating"), gait);
-        }
-        // The joints it is made from are checked
-        GaitSpec::Joints(_) => {}
-    }
-}
-
-fn fits(findings: &mut Findings<'_>, key: &str, body: &Body, does_fit: bool, wanted: &str) {
-    if !does_fit {
+    let shapes = gait.shapes();
+    if !shapes.contains(&body.shape.name()) {
+        let wanted = shapes.join(" or ");
         findings.error(
             &format!("{key}.gait"),
             format!(
@@ -136,11 +71,21 @@ fn fits(findings: &mut Findings<'_>, key: &str, body: &Body, does_fit: bool, wan
             &format!("give the body the shape of a {wanted}, or another gait"),
         );
     }
+    let key = format!("{key}.gait");
+    match gait {
+        GaitSpec::Squirmer(gait) => squirmer(findings, &format!("{key}.squirmer"), body, gait),
+        GaitSpec::Carangiform(gait) => carangiform(findings, &format!("{key}.carangiform"), gait),
+        GaitSpec::Anguilliform(gait) => {
+            anguilliform(findings, &format!("{key}.anguilliform"), gait);
+        }
+        GaitSpec::Flagellum(gait) => flagellum(findings, &format!("{key}.flagellum"), body, gait),
+        GaitSpec::Pulsating(gait) => pulsating(findings, &format!("{key}.pulsating"), gait),
+        // The joints it is made from are checked
+        GaitSpec::Joints(_) => {}
+    }
 }
 
 fn carangiform(findings: &mut Findings<'_>, key: &str, gait: &CarangiformGait) {
-    findings.positive(&format!("{key}.period"), gait.period);
-    findings.not_negative(&format!("{key}.ramp"), gait.ramp.unwrap_or(0.0));
     let positions: Vec<f64> = gait.curvature.iter().map(|row| row[0]).collect();
     let does_rise = positions.windows(2).all(|pair| pair[1] > pair[0]);
     if positions.len() < 2
@@ -157,10 +102,6 @@ fn carangiform(findings: &mut Findings<'_>, key: &str, gait: &CarangiformGait) {
 }
 
 fn anguilliform(findings: &mut Findings<'_>, key: &str, gait: &AnguilliformGait) {
-    findings.positive(&format!("{key}.period"), gait.period);
-    findings.positive(&format!("{key}.amplitude"), gait.amplitude);
-    findings.not_negative(&format!("{key}.offset"), gait.offset);
-    findings.not_negative(&format!("{key}.ramp"), gait.ramp.unwrap_or(0.0));
     // Slope at the tail: the displacement may not grow faster than the midline is long
     let slope = gait.amplitude * (TAU * (1.0 + gait.offset)).hypot(1.0);
     if slope >= 1.0 {
@@ -176,14 +117,7 @@ fn anguilliform(findings: &mut Findings<'_>, key: &str, gait: &AnguilliformGait)
 }
 
 fn flagellum(findings: &mut Findings<'_>, key: &str, body: &Body, gait: &FlagellumGait) {
-    for (field, value) in
-        [("period", gait.period), ("wavelength", gait.wavelength), ("amplitude", gait.amplitude)]
-    {
-        findings.positive(&format!("{key}.{field}"), value);
-    }
-    findings.not_negative(&format!("{key}.ramp"), gait.ramp.unwrap_or(0.0));
     let Some(joint) = gait.joint else { return };
-    findings.positive(&format!("{key}.joint"), joint);
     if let ShapeSpec::Flagellate(flagellate) = &body.shape
         && joint > flagellate.tail_length
     {
@@ -196,9 +130,6 @@ fn flagellum(findings: &mut Findings<'_>, key: &str, body: &Body, gait: &Flagell
 }
 
 fn pulsating(findings: &mut Findings<'_>, key: &str, gait: &PulsatingGait) {
-    if let Some(period) = gait.period {
-        findings.positive(&format!("{key}.period"), period);
-    }
     if gait.amplitude.is_some() != gait.table.is_empty() {
         findings.error(
             key,
@@ -207,14 +138,7 @@ fn pulsating(findings: &mut Findings<'_>, key: &str, gait: &PulsatingGait) {
         );
         return;
     }
-    if let Some(amplitude) = gait.amplitude {
-        if amplitude.abs() >= 1.0 {
-            findings.error(
-                &format!("{key}.amplitude"),
-                format!("with the amplitude {amplitude} the body would vanish"),
-                "write a number between -1 and 1: the change of area or volume over that at rest",
-            );
-        }
+    if gait.amplitude.is_some() {
         if gait.period.is_none() {
             findings.error(
                 &format!("{key}.amplitude"),
@@ -250,28 +174,10 @@ fn pulsating(findings: &mut Findings<'_>, key: &str, gait: &PulsatingGait) {
 }
 
 fn squirmer(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &SquirmerGait) {
-    if !matches!(body.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. }) {
-        findings.error(
-            &format!("{key}.gait"),
-            format!(
-                "a squirmer is a disc or a sphere, but \"{}\" is of shape `{}`",
-                body.name,
-                body.shape.name()
-            ),
-            "write shape = { disc = ... } (planar) or { sphere = ... } (axisymmetric)",
-        );
-    }
-    if squirmer.modes.is_empty() {
-        findings.error(
-            &format!("{key}.gait.squirmer.modes"),
-            format!("the squirmer \"{}\" has no modes", body.name),
-            "write modes = [B1, B2, ...]",
-        );
-    }
     resolved_modes(findings, key, body, squirmer);
     let n_modes = squirmer.modes.len();
     for (mode, factor) in &squirmer.factors {
-        let factor_key = format!("{key}.gait.squirmer.factors.{mode}");
+        let factor_key = format!("{key}.factors.{mode}");
         // "02" would be another key for the same mode.
         if !(1..=n_modes).any(|number| number.to_string() == *mode) {
             findings.error(
@@ -287,7 +193,7 @@ fn squirmer(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &Squi
         check_factor(findings, &factor_key, factor);
     }
     if let Some(turn) = &squirmer.turn {
-        check_factor(findings, &format!("{key}.gait.squirmer.turn"), turn);
+        check_factor(findings, &format!("{key}.turn"), turn);
     }
 }
 
@@ -304,7 +210,7 @@ fn resolved_modes(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer:
     let highest = squirmer.modes.iter().rposition(|mode| *mode != 0.0).map_or(0, |last| last + 1);
     if highest as f64 > most.max(2.0) {
         findings.warning(
-            &format!("{key}.gait.squirmer.modes"),
+            &format!("{key}.modes"),
             format!(
                 "mode {highest} of \"{}\" is not resolved: half a wave of it is shorter than an edge",
                 body.name

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::joints_in_space::{forms, place_of_child};
+use super::joints_in_space::{direction, place_of_child};
 use crate::rules::Findings;
 use crate::spec::body::joint::{PlanarPose, child_pose};
 use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Slider, Stroke, TimeSettings};
@@ -19,7 +19,9 @@ pub fn check(findings: &mut Findings<'_>) {
         let key = format!("joint.{index}");
         if model.swimmer_of_joint(index).is_none() {
             stroke_of_joint(findings, &key, &joint.kind);
-            forms(findings, &key, joint);
+            if findings.case().geometry == Geometry::Spatial {
+                direction(findings, &key, &joint.kind);
+            }
         }
         let Some(ends) = ends(findings, &key, joint) else { continue };
         if parents[ends.child].is_some() || ends.parent == ends.child {
@@ -159,7 +161,7 @@ fn pose_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: En
 }
 
 /// Pose in which a body starts.
-fn start(model: &Model, body: usize) -> PlanarPose {
+pub(crate) fn start(model: &Model, body: usize) -> PlanarPose {
     let body = &model.bodies[body];
     let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
     PlanarPose { center: [at(0), at(1)].into(), angle: body.angle }
@@ -216,29 +218,17 @@ fn stroke_of_joint(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
         }
         JointKind::Bent { angle, .. } => stroke(findings, &format!("{key}.kind.bent.angle"), angle),
         JointKind::Hinge(one) => hinge(findings, &format!("{key}.kind.hinge"), one),
-        JointKind::Slider(one) => slider(findings, &format!("{key}.kind.slider"), one),
-        JointKind::Ball(ball) => {
-            findings.not_negative(&format!("{key}.kind.ball.stiffness"), ball.stiffness);
-            findings.not_negative(&format!("{key}.kind.ball.damping"), ball.damping);
+        JointKind::Slider(Slider { force: Some(force), .. }) => {
+            stroke(findings, &format!("{key}.kind.slider.force"), force);
         }
+        JointKind::Slider(_) | JointKind::Ball(_) => {}
     }
 }
 
-/// Numbers of a free pivot.
+/// The torque of a free pivot.
 pub(crate) fn hinge(findings: &mut Findings<'_>, key: &str, hinge: &Hinge) {
-    findings.not_negative(&format!("{key}.stiffness"), hinge.stiffness);
-    findings.not_negative(&format!("{key}.damping"), hinge.damping);
     if let Some(torque) = &hinge.torque {
         stroke(findings, &format!("{key}.torque"), torque);
-    }
-}
-
-/// Numbers of an arm of free length.
-fn slider(findings: &mut Findings<'_>, key: &str, slider: &Slider) {
-    findings.not_negative(&format!("{key}.stiffness"), slider.stiffness);
-    findings.not_negative(&format!("{key}.damping"), slider.damping);
-    if let Some(force) = &slider.force {
-        stroke(findings, &format!("{key}.force"), force);
     }
 }
 
@@ -257,13 +247,8 @@ pub(crate) fn arm(findings: &mut Findings<'_>, key: &str, length: &Stroke) {
 /// Numbers of a stroke.
 pub(crate) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
     match stroke {
-        Stroke::Constant(_) | Stroke::Steady { .. } => {}
-        Stroke::Sine { period, ramp, .. } => {
-            findings.positive(&format!("{key}.sine.period"), *period);
-            findings.not_negative(&format!("{key}.sine.ramp"), *ramp);
-        }
+        Stroke::Constant(_) | Stroke::Steady { .. } | Stroke::Sine { .. } => {}
         Stroke::Legs { knots, period, .. } => {
-            findings.positive(&format!("{key}.legs.period"), *period);
             let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
             let is_inside = knots.first().is_some_and(|knot| knot[0] == 0.0)
                 && knots.last().is_some_and(|knot| knot[0] < *period);

@@ -1,81 +1,29 @@
-//! Problems of `[[joint]]` that depend on the number of dimensions, and where children are in space.
+//! Problems of `[[joint]]` in space: directions, and where children are.
 
-use crate::model::speed::norm;
 use crate::rules::Findings;
-use crate::{Geometry, Hinge, Joint, JointKind, Slider};
+use crate::{Joint, JointKind};
 
 /// Distance between a child and where its joint puts it, over the size of the joint, that is taken
 /// for rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Points have as many coordinates as the case has, and joints are of kinds that it knows.
-pub(crate) fn forms(findings: &mut Findings<'_>, key: &str, joint: &Joint) {
-    let geometry = findings.case().geometry;
-    let is_spatial = geometry == Geometry::Spatial;
-    let n = if is_spatial { 3 } else { 2 };
-    for (name, end) in [("on_parent", &joint.on_parent), ("on_child", &joint.on_child)] {
-        if !end.is_empty() && end.len() != n {
-            findings.error(
-                &format!("{key}.{name}"),
-                format!("`{key}.{name}` has {} coordinates, and the case {n}", end.len()),
-                if is_spatial { "write [x, y, z]" } else { "write [x, y]" },
-            );
-        }
-    }
-    if is_spatial {
-        in_space(findings, key, &joint.kind);
-    } else {
-        in_plane(findings, key, &joint.kind);
-    }
-}
-
-fn in_space(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
-    let mut direction = |name: &str, vector: Option<[f64; 3]>, what: &str| {
-        if vector.is_none_or(|vector| norm(&vector) == 0.0) {
-            findings.error(
-                &format!("{key}.kind.{name}"),
-                format!("{what} in three dimensions needs a direction"),
-                &format!("write {name} = [x, y, z], in the frame of the parent"),
-            );
-        }
+/// In space a joint has a direction to move along or to turn about.
+pub(crate) fn direction(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
+    let (name, along, what) = match kind {
+        JointKind::Arm { along, .. } => ("arm.along", along, "an arm"),
+        JointKind::Slider(slider) => ("slider.along", &slider.along, "an arm"),
+        JointKind::Bent { axis, .. } => ("bent.axis", axis, "a pivot"),
+        JointKind::Hinge(hinge) => ("hinge.axis", &hinge.axis, "a hinge"),
+        JointKind::Ball(_) => return,
     };
-    match kind {
-        JointKind::Arm { along, direction: angle, .. }
-        | JointKind::Slider(Slider { along, direction: angle, .. }) => {
-            let name = if matches!(kind, JointKind::Slider(_)) { "slider" } else { "arm" };
-            direction(&format!("{name}.along"), *along, "an arm");
-            if *angle != 0.0 {
-                findings.error(
-                    &format!("{key}.kind.{name}.direction"),
-                    "`direction` is an angle in the plane".to_owned(),
-                    "write along = [x, y, z], in the frame of the parent",
-                );
-            }
-        }
-        JointKind::Bent { axis, .. } => direction("bent.axis", *axis, "a pivot"),
-        JointKind::Ball(_) => {}
-        JointKind::Hinge(hinge) => direction("hinge.axis", hinge.axis, "a hinge"),
+    if along.is_none() {
+        let (_, own) = name.split_once('.').unwrap_or_default();
+        findings.error(
+            &format!("{key}.kind.{name}"),
+            format!("{what} in three dimensions needs a direction"),
+            &format!("write {own} = [x, y, z], in the frame of the parent"),
+        );
     }
-}
-
-fn in_plane(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
-    let (name, help) = match kind {
-        JointKind::Arm { along: Some(_), .. } => ("arm.along", "write direction = ... (rad)"),
-        JointKind::Slider(Slider { along: Some(_), .. }) => {
-            ("slider.along", "write direction = ... (rad)")
-        }
-        JointKind::Bent { axis: Some(_), .. } => ("bent.axis", "leave it out: the axis is z"),
-        JointKind::Hinge(Hinge { axis: Some(_), .. }) => {
-            ("hinge.axis", "leave it out: the axis is z")
-        }
-        JointKind::Ball(_) => ("ball", "take kind.hinge"),
-        _ => return,
-    };
-    findings.error(
-        &format!("{key}.kind.{name}"),
-        format!("`{name}` is for three dimensions"),
-        &format!("{help}, or take geometry = \"spatial\""),
-    );
 }
 
 /// The child starts where the joint puts it; how it is turned then is what the joint keeps.

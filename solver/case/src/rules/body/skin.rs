@@ -40,19 +40,16 @@ pub fn check(findings: &mut Findings<'_>, chain: &Chain<'_>) {
     // A link without an outline is refused elsewhere
     let Ok(layout) = Layout::new(chain.links, chain.gap) else { return };
     let (rounding, shortest) = (layout.rounding(chain.skin), layout.shortest());
-    if let Some(given) = chain.skin.rounding {
-        findings.positive(&format!("{key}.skin.rounding"), given);
-        if given > shortest {
-            findings.error(
-                &format!("{key}.skin.rounding"),
-                format!(
-                    "the skin bends over {given} at each pivot, and two pivots, or a pivot and an \
-                     end, are {shortest:.4} apart"
-                ),
-                &format!("write {shortest:.4} or less, or leave it out for half of it"),
-            );
-            return;
-        }
+    if let Some(given) = chain.skin.rounding.filter(|given| *given > shortest) {
+        findings.error(
+            &format!("{key}.skin.rounding"),
+            format!(
+                "the skin bends over {given} at each pivot, and two pivots, or a pivot and an end, \
+                 are {shortest:.4} apart"
+            ),
+            &format!("write {shortest:.4} or less, or leave it out for half of it"),
+        );
+        return;
     }
     if rounding > 0.0 {
         folds(findings, chain, &layout, rounding);

@@ -1,6 +1,7 @@
 //! Problems of shapes in space made of curves, profiles and parts.
 
-use alewife_mesh::spatial::Centreline;
+use alewife_mesh::spatial::{Body, BodySurface, Centreline};
+use nalgebra::Isometry3;
 
 use crate::rules::Findings;
 use crate::rules::space::check_orientation;
@@ -8,16 +9,6 @@ use crate::{CurveShape, HelixShape, PartSpec, ShapeSpec};
 
 pub fn check_helix(findings: &mut Findings<'_>, key: &str, helix: &HelixShape) {
     let HelixShape { radius, pitch, turns, tube_radius } = *helix;
-    for (name, value) in [("radius", radius), ("pitch", pitch), ("tube_radius", tube_radius)] {
-        findings.positive(&format!("{key}.{name}"), value);
-    }
-    if turns == 0.0 {
-        findings.error(
-            &format!("{key}.turns"),
-            "a helix of no turns has no length".to_owned(),
-            "write a number of turns, negative for a left-handed helix",
-        );
-    }
     let widest = Centreline::Helix { radius, pitch, turns }.widest_tube();
     if tube_radius >= widest {
         findings.error(
@@ -29,12 +20,8 @@ pub fn check_helix(findings: &mut Findings<'_>, key: &str, helix: &HelixShape) {
 }
 
 pub fn check_curve(findings: &mut Findings<'_>, key: &str, curve: &CurveShape) {
-    findings.positive(&format!("{key}.tube_radius"), curve.tube_radius);
     let points = format!("{key}.points");
     if curve.points.len() < 2 {
-        let n = curve.points.len();
-        let help = "give two points [x, y, z] or more";
-        findings.error(&points, format!("{n} points make no curve"), help);
         return;
     }
     if let Some(index) = curve.points.windows(2).position(|pair| pair[0] == pair[1]) {
@@ -62,14 +49,6 @@ pub fn check_curve(findings: &mut Findings<'_>, key: &str, curve: &CurveShape) {
 
 pub fn check_profile(findings: &mut Findings<'_>, key: &str, profile: &[[f64; 2]]) {
     let n = profile.len();
-    if n < 3 {
-        findings.error(
-            key,
-            format!("a profile of {n} points has no inside"),
-            "give at least 3 points [x, distance from the axis], the first and the last on the axis",
-        );
-        return;
-    }
     for (index, [_, off]) in profile.iter().enumerate() {
         let is_end = index == 0 || index == n - 1;
         let is_right = if is_end { *off == 0.0 } else { *off > 0.0 };
@@ -91,16 +70,48 @@ pub fn check_parts(
     parts: &[PartSpec],
     check_shape: impl Fn(&mut Findings<'_>, &str, &ShapeSpec),
 ) {
-    if parts.is_empty() {
-        let help = "write [{ shape = ..., center = [x, y, z] }, ...]";
-        findings.error(key, "a union of no parts is no body".to_owned(), help);
-    }
     for (index, part) in parts.iter().enumerate() {
         let key = format!("{key}.{index}");
         check_shape(findings, &format!("{key}.shape"), &part.shape);
         if let Some(orientation) = &part.orientation {
             check_orientation(findings, &format!("{key}.orientation"), orientation);
         }
+    }
+    if findings.has_no_error() {
+        check_overlaps(findings, key, parts);
+    }
+}
+
+/// Parts that overlap one after the other: others make several bodies of one.
+fn check_overlaps(findings: &mut Findings<'_>, key: &str, parts: &[PartSpec]) {
+    let surface = |part: &PartSpec| {
+        let parts = ShapeSpec::Union(vec![part.clone()]).parts()?;
+        let (name, pose) = (String::new(), Isometry3::identity());
+        BodySurface::new(&Body { name, parts, pose, size: None }).ok()
+    };
+    let Some(surfaces) = parts.iter().map(surface).collect::<Option<Vec<_>>>() else { return };
+    let Some((first, rest)) = surfaces.split_first() else { return };
+    let mut joined = vec![first];
+    let mut left: Vec<(usize, &BodySurface)> = (1..).zip(rest).collect();
+    loop {
+        let n_left = left.len();
+        left.retain(|(_, surface)| {
+            let is_apart = joined.iter().all(|other| surface.is_apart_from(other));
+            if !is_apart {
+                joined.push(surface);
+            }
+            is_apart
+        });
+        if left.len() == n_left {
+            break;
+        }
+    }
+    for (index, _) in left {
+        findings.error(
+            &format!("{key}.{index}.center"),
+            format!("part {index} of the union overlaps none of those that hang together with part 0"),
+            "move parts together until they overlap, or write two bodies, with a joint if they move as one",
+        );
     }
 }
 
@@ -163,6 +174,14 @@ boundary = {{ left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no
         let head = "shape.sphere.radius = 0.5";
         let tail = "shape.capsule = { length = 2.0, radius = 0.1 }, center = [1.2, 0, 0]";
         assert!(wrong(&format!("union = [{{ {head} }}, {{ {tail} }}]")).is_empty());
+        let part = |x: f64| format!("{{ {head}, center = [{x}, 0, 0] }}");
+        let union = |at: &[f64]| {
+            format!("union = [{}]", at.iter().map(|x| part(*x)).collect::<Vec<_>>().join(", "))
+        };
+        assert!(wrong(&union(&[0.0, 1.8, 0.9])).is_empty());
+        let key = |index: usize| format!("body.0.shape.union.{index}.center");
+        assert_eq!(wrong(&union(&[0.0, 1.0])), [key(1)]);
+        assert_eq!(wrong(&union(&[-1.0, 1.0, 1.5, -0.5])), [key(1), key(2)]);
         assert_eq!(wrong("union = []"), ["body.0.shape.union"]);
         let disc = "shape.disc.radius = 0.5";
         assert_eq!(wrong(&format!("union = [{{ {disc} }}]")), ["body.0.shape.union.0.shape"]);

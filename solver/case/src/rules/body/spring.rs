@@ -1,4 +1,4 @@
-//! Problems of `body.spring`: springs that are not valid, and motions that do not follow them.
+//! Problems of `body.spring`: springs that do nothing, and motions that do not follow them.
 
 use crate::rules::Findings;
 use crate::{Body, Lock, Motion, SpringSpec, TimeSettings};
@@ -6,19 +6,6 @@ use crate::{Body, Lock, Motion, SpringSpec, TimeSettings};
 pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let Some(spring) = &body.spring else { return };
     let key = format!("{key}.spring");
-    for (name, values) in [("stiffness", &spring.stiffness), ("damping", &spring.damping)] {
-        let key = format!("{key}.{name}");
-        if !values.is_empty() && findings.vector(&key, values) {
-            for (axis, value) in values.iter().enumerate() {
-                findings.not_negative(&format!("{key}.{axis}"), *value);
-            }
-        }
-    }
-    if !spring.anchor.is_empty() {
-        findings.vector(&format!("{key}.anchor"), &spring.anchor);
-    }
-    findings.not_negative(&format!("{key}.torsion"), spring.torsion);
-    findings.not_negative(&format!("{key}.torsion_damping"), spring.torsion_damping);
     if matches!(findings.case().time, TimeSettings::Steady(_)) {
         findings.error(
             &key,

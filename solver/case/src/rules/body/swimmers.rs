@@ -5,93 +5,41 @@ use std::collections::HashSet;
 use super::bodies::check_word;
 use super::joints::{arm, hinge, stroke};
 use super::skin;
-use crate::model::copies::product;
-use crate::model::speed::norm;
 use crate::rules::Findings;
 use crate::rules::space::check_orientation;
 use crate::{
-    Copies, FlowModel, Geometry, Motion, Pivot, Scheme, Stroke, SwimmerKind, SwimmerSpec,
-    TimeSettings,
+    FlowModel, Geometry, Motion, Pivot, Scheme, Stroke, SwimmerKind, SwimmerSpec, TimeSettings,
 };
 
 pub fn check(findings: &mut Findings<'_>) {
     for (index, swimmer) in findings.case().swimmer.iter().enumerate() {
         let key = format!("swimmer.{index}");
         check_word(findings, &format!("{key}.name"), &swimmer.name);
-        if let Some(period) = swimmer.period {
-            findings.positive(&format!("{key}.period"), period);
-        }
         periods(findings, &key, &swimmer.kind, swimmer.period);
-        if let Some(resistance) = swimmer.resistance {
-            findings.positive(&format!("{key}.resistance"), resistance);
+        if let Some(orientation) = &swimmer.orientation {
+            check_orientation(findings, &format!("{key}.orientation"), orientation);
         }
-        place(findings, &key, swimmer);
         parts(findings, &key, swimmer);
-        copies(findings, &key, swimmer);
     }
     short_steps(findings);
     names(findings);
     explicit_scheme(findings);
 }
 
-/// Where a swimmer is and how it is turned, in as many dimensions as the case has.
-fn place(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
-    if !swimmer.center.is_empty() {
-        findings.vector(&format!("{key}.center"), &swimmer.center);
-    }
-    if findings.case().geometry == Geometry::Spatial {
-        if swimmer.angle != 0.0 {
-            findings.error(
-                &format!("{key}.angle"),
-                "`angle` is one in the plane".to_owned(),
-                "write orientation = { turned = { axis = [x, y, z], angle = ... } }",
-            );
-        }
-        if let Some(orientation) = &swimmer.orientation {
-            check_orientation(findings, &format!("{key}.orientation"), orientation);
-        }
-    } else if swimmer.orientation.is_some() {
-        findings.error(
-            &format!("{key}.orientation"),
-            format!("`orientation` turns \"{}\" out of the plane", swimmer.name),
-            "write angle = ... (rad), or take geometry = \"spatial\"",
-        );
-    }
-}
-
 /// The bodies and joints a swimmer is made of.
 fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
     match &swimmer.kind {
-        SwimmerKind::Star { arms, radius, radii, along, .. } => {
-            findings.positive(&format!("{key}.kind.star.radius"), *radius);
-            positive_radii(findings, &format!("{key}.kind.star.radii"), radii);
-            not_on_an_axis(findings, key, "star");
-            arms_in_space(findings, key, along);
-            if radii.is_empty() {
-                findings.error(
-                    &format!("{key}.kind.star.radii"),
-                    "a star without arms is a disc".to_owned(),
-                    "give one radius or more",
-                );
-            }
+        SwimmerKind::Star { arms, radius, radii, .. } => {
             for (nth, length) in arms.iter().enumerate() {
                 let sum = radii.get(nth).map(|end| radius + end);
                 arm_of_swimmer(findings, &format!("{key}.kind.star.arms.{nth}"), length, sum);
             }
         }
         SwimmerKind::Chain { links, gap, joints, skin } => {
-            not_on_an_axis(findings, key, "chain");
-            if skin.is_some() && findings.case().geometry == Geometry::Spatial {
-                findings.error(
-                    &format!("{key}.kind.chain.skin"),
-                    "a skin over links is for the plane only".to_owned(),
-                    "leave it out for separate links, or take geometry = \"planar\"",
-                );
-            } else if let Some(skin) = *skin {
+            if let Some(skin) = skin.filter(|_| findings.case().geometry == Geometry::Planar) {
                 let (key, gap) = (&format!("{key}.kind.chain"), *gap);
                 skin::check(findings, &skin::Chain { key, links, gap, joints, skin });
             }
-            findings.positive(&format!("{key}.kind.chain.gap"), *gap);
             for (nth, joint) in joints.iter().enumerate() {
                 let key = format!("{key}.kind.chain.joints.{nth}");
                 match joint {
@@ -101,14 +49,6 @@ fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
             }
         }
         SwimmerKind::LinkedSpheres { arms, radii, .. } => {
-            positive_radii(findings, &format!("{key}.kind.linked-spheres.radii"), radii);
-            if radii.len() < 2 {
-                findings.error(
-                    &format!("{key}.kind.linked-spheres.radii"),
-                    format!("{} sphere has nothing to be linked to", radii.len()),
-                    "give two radii or more",
-                );
-            }
             for (nth, length) in arms.iter().enumerate() {
                 let key = format!("{key}.kind.linked-spheres.arms.{nth}");
                 let sum = radii.get(nth).zip(radii.get(nth + 1)).map(|(left, right)| left + right);
@@ -117,38 +57,6 @@ fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
         }
         SwimmerKind::Bodies(names) => group(findings, key, swimmer, names),
         SwimmerKind::Body { .. } => {}
-    }
-}
-
-fn positive_radii(findings: &mut Findings<'_>, key: &str, radii: &[f64]) {
-    for (nth, radius) in radii.iter().enumerate() {
-        findings.positive(&format!("{key}.{nth}"), *radius);
-    }
-}
-
-/// Directions of arms, which are in space and point somewhere.
-fn arms_in_space(findings: &mut Findings<'_>, key: &str, along: &[[f64; 3]]) {
-    let key = format!("{key}.kind.star.along");
-    if !along.is_empty() && findings.case().geometry != Geometry::Spatial {
-        findings.error(
-            &key,
-            "`along` is for three dimensions".to_owned(),
-            "write directions = [...] (rad), or take geometry = \"spatial\"",
-        );
-    }
-    for (nth, _) in along.iter().enumerate().filter(|(_, along)| norm(*along) == 0.0) {
-        let message = "the arm points nowhere".to_owned();
-        findings.error(&format!("{key}.{nth}"), message, "write a direction such as [1, 0, 0]");
-    }
-}
-
-fn not_on_an_axis(findings: &mut Findings<'_>, key: &str, name: &str) {
-    if findings.case().geometry == Geometry::Axisymmetric {
-        findings.error(
-            &format!("{key}.kind"),
-            format!("a {name} cannot stand in an axisymmetric case"),
-            "axisymmetric swimmers: body, linked-spheres, bodies",
-        );
     }
 }
 
@@ -189,32 +97,6 @@ fn group(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec, names: &
     }
 }
 
-fn copies(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
-    match &swimmer.copies {
-        Some(Copies::Random { count, gap, within, .. }) => {
-            for corner in within.iter().flatten() {
-                findings.vector(&format!("{key}.copies.random.within"), corner);
-            }
-            findings.not_negative(&format!("{key}.copies.random.gap"), *gap);
-            none(findings, &format!("{key}.copies.random.count"), *count);
-        }
-        Some(Copies::Lattice { counts, spacing }) => {
-            findings.vector(&format!("{key}.copies.lattice.spacing"), spacing);
-            let dimensions = findings.case().geometry.dimensions();
-            if counts.len() != dimensions {
-                findings.error(
-                    &format!("{key}.copies.lattice.counts"),
-                    format!("{} numbers of copies for {dimensions} dimensions", counts.len()),
-                    "write one for each axis",
-                );
-            }
-            let count = product(counts).unwrap_or(usize::MAX);
-            none(findings, &format!("{key}.copies.lattice.counts"), count);
-        }
-        None => {}
-    }
-}
-
 /// A swimmer has a name of its own, but for that of its only body.
 fn names(findings: &mut Findings<'_>) {
     let (case, model) = (findings.case(), findings.model());
@@ -230,14 +112,6 @@ fn names(findings: &mut Findings<'_>) {
             );
         }
         taken.insert(name);
-    }
-}
-
-/// Copies that make no swimmer.
-fn none(findings: &mut Findings<'_>, key: &str, count: usize) {
-    if count == 0 {
-        let message = format!("`{key}` makes no swimmer at all");
-        findings.error(key, message, "write 1 or more, or leave the swimmer out");
     }
 }
 

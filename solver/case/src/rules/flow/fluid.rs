@@ -1,4 +1,4 @@
-//! Problems of `[fluid]` and `[scales]`, and numbers that disagree.
+//! Problems of `[fluid]`, and numbers that disagree.
 
 use crate::model::numbers::{density_ratio, reynolds, significant};
 use crate::rules::Findings;
@@ -14,8 +14,6 @@ const UNRESOLVED: f64 = 1e3;
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
     let fluid = &case.fluid;
-    findings.positive("fluid.viscosity", fluid.viscosity);
-    findings.not_negative("fluid.density", fluid.density);
     if fluid.model != FlowModel::Stokes && fluid.density == 0.0 {
         let model = if fluid.model == FlowModel::UnsteadyStokes {
             "unsteady-stokes"
@@ -28,8 +26,7 @@ pub fn check(findings: &mut Findings<'_>) {
             "add `density = ...` to [fluid], or set `model = \"stokes\"`",
         );
     }
-    if !fluid.gravity.is_empty()
-        && findings.vector("fluid.gravity", &fluid.gravity)
+    if findings.is_vector(&fluid.gravity)
         && case.geometry == Geometry::Axisymmetric
         && fluid.gravity[1] != 0.0
     {
@@ -50,13 +47,6 @@ pub fn check(findings: &mut Findings<'_>) {
             "gravity acts, but the fluid has no density: nothing is buoyant".to_owned(),
             "add `density = ...` to [fluid]; in slow flow (stokes) it is used for buoyancy only",
         );
-    }
-    if let Some(scales) = &case.scales {
-        findings.positive("scales.length", scales.length);
-        findings.positive("scales.velocity", scales.velocity);
-        if let Some(area) = scales.area {
-            findings.positive("scales.area", area);
-        }
     }
     declared_numbers(findings);
     resolution(findings);

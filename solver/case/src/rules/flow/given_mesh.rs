@@ -55,9 +55,6 @@ pub fn check_side(
             "a parabolic velocity has its largest value in the middle of a straight side, or of a \
              round flat one; on others write { velocity = { value = [...] } }",
         ),
-        BoundaryCondition::Velocity { value, .. } => {
-            findings.vector(&format!("{key}.velocity.value"), value);
-        }
         _ => {}
     }
 }

@@ -54,10 +54,9 @@ fn check_given(findings: &mut Findings<'_>, flow: &MeanFlowSpec) {
         ("body_force", body_force),
     ] {
         let key = format!("flow.{name}");
-        let Some(values) = values else { continue };
-        if !findings.vector(&key, values) {
+        let Some(values) = values.as_ref().filter(|values| findings.is_vector(values)) else {
             continue;
-        }
+        };
         for (axis, value) in values.iter().enumerate() {
             if *value != 0.0 && !periodic[axis] {
                 let along = AXES[axis];

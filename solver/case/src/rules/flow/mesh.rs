@@ -1,10 +1,10 @@
-//! Problems of `[mesh]`, `[output]` and cells too coarse for a body.
+//! Problems of `[mesh]` and cells too coarse for a body.
 
 use std::collections::HashSet;
 
+use crate::MovingMesh;
 use crate::rules::Findings;
 use crate::text::type_error::suggestion;
-use crate::{Cadence, MovingMesh};
 
 /// Edges on an outline below which a body is hardly round.
 const FEWEST_EDGES: f64 = 8.0;
@@ -21,28 +21,11 @@ const FEW_LAYERS: f64 = 1.5;
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
     let mesh = &case.mesh;
-    findings.positive("mesh.size", mesh.size);
-    if let Some(surface) = mesh.surface {
-        findings.positive("mesh.surface", surface);
-    }
-    findings.positive("mesh.scale", mesh.scale);
-    findings.positive("mesh.gap_layers", mesh.gap_layers);
-    findings.not_negative("mesh.growth", mesh.growth);
-    if mesh.growth > 1.0 {
-        findings.error(
-            "mesh.growth",
-            format!("`mesh.growth` is {}, but cells this uneven cannot be made", mesh.growth),
-            "write a number from 0 to 1; 0.2 is usual",
-        );
-    }
     let sides = case.sides();
-    for (side, size) in &mesh.sides {
+    for side in mesh.sides.keys().filter(|side| !sides.contains(&side.as_str())) {
+        let help = suggestion(side, &sides);
         let key = format!("mesh.sides.{side}");
-        findings.positive(&key, *size);
-        if !sides.contains(&side.as_str()) {
-            let help = suggestion(side, &sides);
-            findings.error(&key, format!("this domain has no side `{side}`"), &help);
-        }
+        findings.error(&key, format!("this domain has no side `{side}`"), &help);
     }
     check_boxes(findings);
     let is_given = mesh.gap_layers > 0.0 && mesh.scale > 0.0;
@@ -58,7 +41,6 @@ pub fn check(findings: &mut Findings<'_>) {
     }
     check_moving(findings);
     check_edges(findings);
-    check_output(findings);
 }
 
 /// Refinement boxes have an inside, and part of the domain in it.
@@ -76,10 +58,7 @@ fn check_boxes(findings: &mut Findings<'_>) {
     let axes = 0..case.geometry.dimensions();
     for (index, refined) in case.mesh.boxes.iter().enumerate() {
         let key = format!("mesh.box.{index}");
-        findings.positive(&format!("{key}.size"), refined.size);
-        let are_corners = findings.vector(&format!("{key}.min"), &refined.min)
-            && findings.vector(&format!("{key}.max"), &refined.max);
-        if !are_corners {
+        if !findings.is_vector(&refined.min) || !findings.is_vector(&refined.max) {
             continue;
         }
         if axes.clone().any(|axis| refined.max[axis] <= refined.min[axis]) {
@@ -133,52 +112,20 @@ fn check_edges(findings: &mut Findings<'_>) {
     }
 }
 
-/// How often results are written.
-fn check_output(findings: &mut Findings<'_>) {
-    let case = findings.case();
-    for (key, cadence) in
-        [("output.fields", case.output.fields), ("output.series", case.output.series)]
-    {
-        match cadence {
-            Cadence::Steps(0) => findings.error(
-                &format!("{key}.steps"),
-                format!("`{key}` is every 0 steps"),
-                "write { steps = 1 } or more, \"end\", or \"never\"",
-            ),
-            Cadence::Time(interval) => findings.positive(&format!("{key}.time"), interval),
-            _ => {}
-        }
-    }
-    if let Some(interval) = case.output.checkpoint.time {
-        findings.positive("output.checkpoint.time", interval);
-    }
-}
-
 /// When a mesh that moves is replaced.
 fn check_moving(findings: &mut Findings<'_>) {
     let case = findings.case();
     let (moving, gap_layers) = (case.mesh.moving, case.mesh.gap_layers);
-    findings.positive("mesh.moving.quality", moving.quality);
-    if moving.quality >= 1.0 {
-        findings.error(
-            "mesh.moving.quality",
-            format!("no cell that moves keeps {} of its quality", moving.quality),
-            "write a number between 0 and 1; 0.4 is usual",
-        );
-    }
     // Both as written: the scale of the mesh makes gaps coarser than they were meant to be, which
     // is no reason to refuse them. A mesh with few layers is replaced once it has lost some.
-    if let Some(layers) = moving.layers {
-        findings.positive("mesh.moving.layers", layers);
-        if layers > gap_layers.max(MODEST_LAYERS) {
-            findings.error(
-                "mesh.moving.layers",
-                format!(
-                    "the domain is remeshed below {layers} layers across a gap, but a new mesh has {gap_layers}"
-                ),
-                &format!("write at most mesh.gap_layers = {gap_layers}, or raise that"),
-            );
-        }
+    if let Some(layers) = moving.layers.filter(|layers| *layers > gap_layers.max(MODEST_LAYERS)) {
+        findings.error(
+            "mesh.moving.layers",
+            format!(
+                "the domain is remeshed below {layers} layers across a gap, but a new mesh has {gap_layers}"
+            ),
+            &format!("write at most mesh.gap_layers = {gap_layers}, or raise that"),
+        );
     }
     if moving != MovingMesh::default() && !findings.model().mesh_moves() {
         findings.warning(

@@ -36,7 +36,7 @@ fn report(findings: &mut Findings<'_>, arrangement: &impl Arrangement) {
         let minus = Some(&probe.minus).filter(|minus| !minus.is_empty());
         for (name, point) in [("point", Some(&probe.point)), ("minus", minus)] {
             let key = format!("probe.{index}.{name}");
-            let Some(point) = point.filter(|point| findings.vector(&key, point)) else { continue };
+            let Some(point) = point.filter(|point| findings.is_vector(point)) else { continue };
             check_probe(findings, &key, arrangement, point, misplaced.is_empty());
         }
     }

@@ -4,6 +4,8 @@ use alewife_mesh::{Profile, TubeForm};
 use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
+#[cfg(test)]
+use crate::spec::number::{BelowOne, NonNegative, Positive};
 
 /// `shape.fish`: straight along the body's x, head towards +x, origin in the centre of area.
 ///
@@ -13,27 +15,35 @@ use super::stroke::Stroke;
 #[serde(deny_unknown_fields)]
 pub struct FishShape {
     /// Length (m), up to the point in which the sides of the tail would meet.
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub length: f64,
     /// Radius of the round head.
     #[serde(default = "head_width")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub head_width: f64,
     /// Half width where the sides begin to close.
     #[serde(default = "tail_width")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub tail_width: f64,
     /// Where the round head ends; at most `head_width`.
     #[serde(default = "head_end")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub head_end: f64,
     /// Where the sides begin to close.
     #[serde(default = "tail_start")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub tail_start: f64,
     /// Radius of the round end inscribed in the tail.
     #[serde(default = "tip_radius")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub tip_radius: f64,
     /// Radius with which the corner at `tail_start` is rounded.
     #[serde(default = "corner_radius")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub corner_radius: f64,
     /// Half height in the middle, of half an ellipse from head to tail (spatial); circles if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>", extend("geometries" = ["spatial"])))]
     pub height: Option<f64>,
 }
 
@@ -43,13 +53,17 @@ pub struct FishShape {
 #[serde(deny_unknown_fields)]
 pub struct FlagellateShape {
     /// Semi-axes of the elliptic head, along the body and across it (m).
+    #[cfg_attr(test, schemars(with = "[Positive; 2]"))]
     pub head: [f64; 2],
     /// Length of the tail from the end of the head on (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub tail_length: f64,
     /// Width of the tail, which has a round end (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub thickness: f64,
     /// Radius with which the corner of head and tail is filled (m); the thickness if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub fillet: Option<f64>,
 }
 
@@ -59,6 +73,7 @@ pub struct FlagellateShape {
 #[serde(deny_unknown_fields)]
 pub struct CarangiformGait {
     /// Period T (s).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub period: f64,
     /// [s/L, K L], from s/L = 0 to 1, joined by a natural cubic spline.
     #[serde(default = "curvature")]
@@ -68,6 +83,7 @@ pub struct CarangiformGait {
     pub bending: f64,
     /// Duration of the ramp at the start (s); a period if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
     pub ramp: Option<f64>,
     /// Phase at the start (periods).
     #[serde(default)]
@@ -80,15 +96,19 @@ pub struct CarangiformGait {
 #[serde(deny_unknown_fields)]
 pub struct AnguilliformGait {
     /// Period T (s).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub period: f64,
     /// Slope of the envelope.
     #[serde(default = "anguilliform_amplitude")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub amplitude: f64,
     /// Where the envelope is zero, before the head, over the length.
     #[serde(default = "anguilliform_offset")]
+    #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub offset: f64,
     /// Duration of the ramp at the start (s); a period if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
     pub ramp: Option<f64>,
     /// Phase at the start (periods).
     #[serde(default)]
@@ -101,19 +121,24 @@ pub struct AnguilliformGait {
 #[serde(deny_unknown_fields)]
 pub struct FlagellumGait {
     /// Period (s).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub period: f64,
     /// Wavelength (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub wavelength: f64,
     /// Amplitude at the end of the tail (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub amplitude: f64,
     /// Time constant of the ramp 1 - exp(-t / ramp) (s); a period if absent, 0 for none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
     pub ramp: Option<f64>,
     /// Phase at the start (periods).
     #[serde(default)]
     pub phase: f64,
     /// Length over which the tail begins to bend (m); a twentieth of the tail if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub joint: Option<f64>,
     /// Whether the midline keeps its length; otherwise its velocities are prescribed.
     #[serde(default = "yes")]
@@ -127,9 +152,11 @@ pub struct FlagellumGait {
 pub struct PulsatingGait {
     /// Area or volume over that at rest is 1 + amplitude sin(2 pi (t / period + phase)).
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<BelowOne>"))]
     pub amplitude: Option<f64>,
     /// Period (s); a table without it is not repeated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub period: Option<f64>,
     /// Phase at the start (periods), with `amplitude`.
     #[serde(default)]
@@ -168,6 +195,36 @@ pub struct BentJoint {
     pub angle: Stroke,
     /// Whether it is behind the root.
     pub is_behind_root: bool,
+}
+
+impl CarangiformGait {
+    /// Duration of the ramp at the start (s).
+    #[must_use]
+    pub fn ramp(&self) -> f64 {
+        self.ramp.unwrap_or(self.period)
+    }
+}
+
+impl AnguilliformGait {
+    /// Duration of the ramp at the start (s).
+    #[must_use]
+    pub fn ramp(&self) -> f64 {
+        self.ramp.unwrap_or(self.period)
+    }
+}
+
+impl FlagellumGait {
+    /// Time constant of the ramp (s); 0 for none.
+    #[must_use]
+    pub fn ramp(&self) -> f64 {
+        self.ramp.unwrap_or(self.period)
+    }
+
+    /// Length over which a tail of some length begins to bend (m).
+    #[must_use]
+    pub fn joint(&self, tail: f64) -> f64 {
+        self.joint.unwrap_or(tail / 20.0)
+    }
 }
 
 impl TubeShape {

@@ -5,6 +5,8 @@ use nalgebra::{Isometry3, Point3, Rotation2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
+#[cfg(test)]
+use crate::spec::number::{Direction, NonNegative, PerDimension};
 
 /// `[[joint]]`: the child is joined to the parent; bodies and joints make trees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -16,10 +18,12 @@ pub struct Joint {
     /// Name of the body that is joined to it.
     pub child: String,
     /// Where the joint is on the parent, in its frame (m); its origin if absent.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub on_parent: Vec<f64>,
     /// Where the joint is on the child, in its frame (m); its origin if absent.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub on_child: Vec<f64>,
     /// What it lets the child do.
     pub kind: JointKind,
@@ -38,9 +42,11 @@ pub enum JointKind {
         /// Direction in the parent's frame, from x, counter-clockwise (rad).
         #[serde(default, deserialize_with = "crate::text::angle::deserialize")]
         #[cfg_attr(test, schemars(with = "crate::text::angle::Angle"))]
+        #[cfg_attr(test, schemars(extend("geometries" = ["planar", "axisymmetric"])))]
         direction: f64,
         /// In three dimensions, the direction in the parent's frame, of any length.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(test, schemars(with = "Option<Direction>", extend("geometries" = ["spatial"])))]
         along: Option<[f64; 3]>,
     },
     /// A pivot bent by a given angle.
@@ -51,6 +57,7 @@ pub enum JointKind {
         angle: Stroke,
         /// In three dimensions, the axis in the parent's frame, of any length.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(test, schemars(with = "Option<Direction>", extend("geometries" = ["spatial"])))]
         axis: Option<[f64; 3]>,
     },
     /// A free pivot: torque on the child -stiffness (angle - rest) - damping rate + torque, with the
@@ -62,6 +69,7 @@ pub enum JointKind {
     /// In three dimensions, a free pivot about all axes: torque on the child -stiffness times the rotation
     /// vector from where it was turned to at time zero, seen from the parent, - damping times the
     /// relative angular velocity; the opposite on the parent.
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Ball(Ball),
 }
 
@@ -190,9 +198,11 @@ fn coordinate(end: &[f64], axis: usize) -> f64 {
 pub struct Ball {
     /// Torque per angle (N m/rad).
     #[serde(default)]
+    #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub stiffness: f64,
     /// Torque per angular velocity (N m s/rad).
     #[serde(default)]
+    #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub damping: f64,
 }
 
@@ -203,9 +213,11 @@ pub struct Ball {
 pub struct Slider {
     /// Force per length (N/m; N/m2 planar).
     #[serde(default)]
+    #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub stiffness: f64,
     /// Force per rate of the length (N s/m; N s/m2 planar).
     #[serde(default)]
+    #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub damping: f64,
     /// Length at rest (m).
     #[serde(default)]
@@ -213,9 +225,11 @@ pub struct Slider {
     /// Direction in the parent's frame, from x, counter-clockwise (rad).
     #[serde(default, deserialize_with = "crate::text::angle::deserialize")]
     #[cfg_attr(test, schemars(with = "crate::text::angle::Angle"))]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "axisymmetric"])))]
     pub direction: f64,
     /// In three dimensions, the direction in the parent's frame, of any length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Direction>", extend("geometries" = ["spatial"])))]
     pub along: Option<[f64; 3]>,
     /// Force of a motor on the child along the arm (N; N/m planar).
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -243,9 +257,11 @@ impl Slider {
 pub struct Hinge {
     /// Torque per angle (N m/rad; N/rad planar).
     #[serde(default)]
+    #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub stiffness: f64,
     /// Torque per angular velocity (N m s/rad; N s/rad planar).
     #[serde(default)]
+    #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub damping: f64,
     /// Angle at rest (rad).
     #[serde(default, deserialize_with = "crate::text::angle::deserialize")]
@@ -254,6 +270,7 @@ pub struct Hinge {
     /// In three dimensions, the axis in the parent's frame, of any length; the angle is that about it of
     /// the rotation from the frame of the parent to that of the child.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Direction>", extend("geometries" = ["spatial"])))]
     pub axis: Option<[f64; 3]>,
     /// Torque of a motor on the child (N m; N planar).
     #[serde(default, skip_serializing_if = "Option::is_none")]

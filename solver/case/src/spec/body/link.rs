@@ -8,6 +8,8 @@ use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
 use crate::ShapeSpec;
+#[cfg(test)]
+use crate::spec::number::{NonNegative, Positive};
 
 /// A link of a chain, its body frame with x along the chain and the front towards +x.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -15,7 +17,7 @@ use crate::ShapeSpec;
 #[serde(untagged)]
 pub enum Link {
     /// Semi-axes of an ellipse (m): along the chain, across.
-    Ellipse([f64; 2]),
+    Ellipse(#[cfg_attr(test, schemars(with = "[Positive; 2]"))] [f64; 2]),
     /// Any planar shape.
     Shaped(ShapedLink),
 }
@@ -29,6 +31,7 @@ pub struct ShapedLink {
     pub shape: ShapeSpec,
     /// Density (kg/m3); that of the swimmer if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
     pub density: Option<f64>,
 }
 

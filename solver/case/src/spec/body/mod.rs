@@ -10,13 +10,10 @@ pub(crate) mod skin;
 mod solid;
 pub(crate) mod solid_shape;
 pub(crate) mod spring;
+pub(crate) mod squirmer;
 pub(crate) mod stroke;
 pub(crate) mod swimmer;
 
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
-
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use self::axial_vector::AxialVector;
@@ -26,7 +23,10 @@ use self::gait::{
 };
 use self::orientation::Orientation;
 use self::spring::SpringSpec;
+use self::squirmer::SquirmerGait;
 use super::domain::{Geometry, TimeFunction};
+#[cfg(test)]
+use crate::spec::number::{NonNegative, NonZero, PerDimension, Positive};
 
 /// `shape`: one of these, in the body's own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,52 +34,71 @@ use super::domain::{Geometry, TimeFunction};
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum ShapeSpec {
     /// Disc (planar).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
     Disc {
         /// Radius (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         radius: f64,
     },
     /// Ellipse (planar).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
     Ellipse {
         /// Semi-axes along the body's x and y (m).
+        #[cfg_attr(test, schemars(with = "[Positive; 2]"))]
         semi_axes: [f64; 2],
     },
     /// Closed smooth spline (planar).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
     Spline {
         /// Points counter-clockwise in the body frame (m), the first not repeated.
+        #[cfg_attr(test, schemars(length(min = 3)))]
         points: Vec<[f64; 2]>,
     },
     /// Fish (planar, spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     Fish(FishShape),
     /// Head with a tail (planar, spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     Flagellate(FlagellateShape),
     /// Chain with a skin; made from the links of a swimmer only.
     #[serde(skip)]
     Tube(TubeShape),
     /// Sphere (axisymmetric, spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["axisymmetric", "spatial"])))]
     Sphere {
         /// Radius (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         radius: f64,
     },
     /// Ellipsoid of revolution about the body's x axis (axisymmetric, spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["axisymmetric", "spatial"])))]
     Spheroid {
         /// Semi-axes along and across the axis of revolution (m).
+        #[cfg_attr(test, schemars(with = "[Positive; 2]"))]
         semi_axes: [f64; 2],
     },
     /// Ellipsoid (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Ellipsoid {
         /// Semi-axes along the body's x, y and z (m).
+        #[cfg_attr(test, schemars(with = "[Positive; 3]"))]
         semi_axes: [f64; 3],
     },
     /// Cylinder about the body's x axis with half spheres at its ends (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Capsule {
         /// Length from end to end (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         length: f64,
         /// Radius (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         radius: f64,
     },
     /// Circular cylinder from side to side of a box (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Cylinder {
         /// Radius (m).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         radius: f64,
         /// Coordinate along which it goes through the box.
         axis: CylinderAxis,
@@ -88,16 +107,21 @@ pub enum ShapeSpec {
         length: f64,
     },
     /// Tube along a helix about the body's x axis (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Helix(HelixShape),
     /// Tube along a smooth curve through points (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Curve(CurveShape),
     /// Smooth profile turned about the body's x axis (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Revolved {
         /// Points (x, distance from the axis) of the profile (m), the first and the last on the axis.
+        #[cfg_attr(test, schemars(length(min = 3)))]
         profile: Vec<[f64; 2]>,
     },
     /// All points of several parts, such as a head and a flagellum (spatial).
-    Union(Vec<PartSpec>),
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
+    Union(#[cfg_attr(test, schemars(length(min = 1)))] Vec<PartSpec>),
 }
 
 /// A coordinate along which a cylinder goes through a box.
@@ -131,12 +155,16 @@ impl CylinderAxis {
 #[serde(deny_unknown_fields)]
 pub struct HelixShape {
     /// Distance of the midline from the axis (m); it starts in the half plane y > 0.
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub radius: f64,
     /// Length along the axis of one turn (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub pitch: f64,
     /// Number of turns: right-handed if positive, left-handed if negative.
+    #[cfg_attr(test, schemars(with = "NonZero"))]
     pub turns: f64,
     /// Radius of the tube (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub tube_radius: f64,
 }
 
@@ -146,8 +174,10 @@ pub struct HelixShape {
 #[serde(deny_unknown_fields)]
 pub struct CurveShape {
     /// Points of the midline in the body frame (m), two or more.
+    #[cfg_attr(test, schemars(length(min = 2)))]
     pub points: Vec<[f64; 3]>,
     /// Radius of the tube (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub tube_radius: f64,
 }
 
@@ -186,6 +216,7 @@ pub enum Motion {
 pub struct ImposedMotion {
     /// Velocity (m/s), one number per dimension.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub velocity: Vec<f64>,
     /// Angular velocity (rad/s): counter-clockwise in planar cases, [x, y, z] in space.
     #[serde(default, skip_serializing_if = "AxialVector::is_zero")]
@@ -262,59 +293,6 @@ pub enum GaitSpec {
     Joints(JointsGait),
 }
 
-/// `gait.squirmer`: u_theta = sum of B_n V_n(theta), theta from the swimming axis.
-///
-/// V_n = 2/(n(n+1)) sin(theta) P_n'(cos theta) on a sphere (V_1 = sin, V_2 = sin cos);
-/// V_n = sin(n theta) on a disc.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct SquirmerGait {
-    /// B_1, B_2, ... (m/s).
-    pub modes: Vec<f64>,
-    /// Direction of the swimming axis in the body frame, from x, counter-clockwise (rad);
-    /// 0 or pi for a body on the axis.
-    #[serde(default, deserialize_with = "crate::text::angle::deserialize")]
-    #[cfg_attr(test, schemars(with = "crate::text::angle::Angle"))]
-    pub heading: f64,
-    /// Direction of the swimming axis in the body frame, of any length (spatial); x if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub axis: Option<[f64; 3]>,
-    /// Factors of modes in time, by the number of the mode: `2` is that of B_2.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub factors: BTreeMap<String, TimeFunction>,
-    /// Angle in time by which the swimming axis is turned from `heading`, counter-clockwise (rad);
-    /// planar only. The body itself does not turn by it.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "crate::text::angle::deserialize"
-    )]
-    pub turn: Option<TimeFunction>,
-}
-
-impl SquirmerGait {
-    /// Factor of each mode in time, as many as there are modes.
-    #[must_use]
-    pub fn factors_of_modes(&self) -> Vec<Option<TimeFunction>> {
-        let number = |index: usize| (index + 1).to_string();
-        (0..self.modes.len()).map(|index| self.factors.get(&number(index)).cloned()).collect()
-    }
-
-    /// The swimming axis as it is written, a unit vector in the frame of the body; where the flow is revolved
-    /// about x, that or its opposite to the last bit.
-    #[must_use]
-    pub fn axis_in_body(&self, is_revolved: bool) -> Vector3<f64> {
-        if is_revolved {
-            Vector3::x() * if (self.heading.abs() - PI).abs() < 1e-3 { -1.0 } else { 1.0 }
-        } else if let Some(axis) = self.axis {
-            Vector3::from(axis).normalize()
-        } else {
-            Vector3::new(self.heading.cos(), self.heading.sin(), 0.0)
-        }
-    }
-}
-
 /// `[[body]]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -325,16 +303,20 @@ pub struct Body {
     /// Outline.
     pub shape: ShapeSpec,
     /// Position of the shape's origin (m), one number per dimension.
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub center: Vec<f64>,
     /// Rotation of the body frame, counter-clockwise (rad; planar).
     #[serde(default, deserialize_with = "crate::text::angle::deserialize")]
     #[cfg_attr(test, schemars(with = "crate::text::angle::Angle"))]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "axisymmetric"])))]
     pub angle: f64,
     /// Rotation of the body frame in space; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     pub orientation: Option<Orientation>,
     /// Density (kg/m3); that of the fluid if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
     pub density: Option<f64>,
     /// How it moves as a whole.
     pub motion: Motion,
@@ -346,6 +328,7 @@ pub struct Body {
     pub gait: Option<GaitSpec>,
     /// External force (N; N/m in planar cases), one number per dimension.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub force: Vec<f64>,
     /// External torque (N m; N planar): counter-clockwise in planar cases, [x, y, z] in space.
     #[serde(default, skip_serializing_if = "AxialVector::is_zero")]
@@ -361,6 +344,7 @@ pub struct Body {
     pub spring: Option<SpringSpec>,
     /// Cell size on its surface (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub size: Option<f64>,
 }
 

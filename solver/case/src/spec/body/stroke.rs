@@ -3,6 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::iter::successors;
 
+#[cfg(test)]
+use crate::spec::number::{NonNegative, Positive};
 use serde::{Deserialize, Serialize};
 
 /// A number given in time: how long an arm is, how far a joint is bent.
@@ -28,6 +30,7 @@ pub enum Stroke {
         /// Amplitude.
         amplitude: f64,
         /// Period (s).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         period: f64,
         /// Phase (periods).
         #[serde(default)]
@@ -35,6 +38,7 @@ pub enum Stroke {
         /// Time over which the amplitude grows from 0, twice continuously differentiable (s); 0 for
         /// the full amplitude from the start.
         #[serde(default)]
+        #[cfg_attr(test, schemars(with = "NonNegative"))]
         ramp: f64,
     },
     /// From knot to knot, over and over.
@@ -43,6 +47,7 @@ pub enum Stroke {
         /// first one again.
         knots: Vec<[f64; 2]>,
         /// Period (s).
+        #[cfg_attr(test, schemars(with = "Positive"))]
         period: f64,
         /// Whether the value rests at each knot: half a cosine from one to the next in place of a
         /// straight line.

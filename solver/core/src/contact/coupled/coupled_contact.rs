@@ -47,7 +47,7 @@ impl CoupledContact<'_> {
 
     /// Bodies as a mobility is asked for them.
     pub(super) fn loaded(&self, bodies: &[usize]) -> Vec<LoadedBody> {
-        loaded_bodies(self.gaps, bodies)
+        loaded_bodies(self.gaps, self.law, bodies)
     }
 
     /// Loads on some bodies, by row.
@@ -117,9 +117,10 @@ impl CoupledContact<'_> {
     }
 }
 
-/// Bodies as a mobility is asked for them: contact does not turn those that are round.
-pub(super) fn loaded_bodies(gaps: &dyn Gaps, bodies: &[usize]) -> Vec<LoadedBody> {
-    let loaded = |&body: &usize| LoadedBody { body, turns: !gaps.is_round(body) };
+/// Bodies as a mobility is asked for them: without friction contact does not turn those that are round.
+pub(super) fn loaded_bodies(gaps: &dyn Gaps, law: &Law, bodies: &[usize]) -> Vec<LoadedBody> {
+    let turns = |body: usize| law.turns_round_bodies() || !gaps.is_round(body);
+    let loaded = |&body: &usize| LoadedBody { body, turns: turns(body) };
     bodies.iter().map(loaded).collect()
 }
 

@@ -56,7 +56,7 @@ impl<'a> StageContact<'a> {
             return Ok(());
         }
         let bodies = self.bodies();
-        let mobility = flow.mobility(&loaded_bodies(self.gaps, &bodies))?;
+        let mobility = flow.mobility(&loaded_bodies(self.gaps, self.law, &bodies))?;
         let rate = self.fastest_decay(&bodies, &mobility);
         if rate * size > LARGEST_DECAY {
             return Err(ContactError::Stiff { size, time_scale: 1.0 / rate }.into());

@@ -67,10 +67,22 @@ impl ContactPair {
     /// They are also the directions of the load: the force times them acts on both.
     #[must_use]
     pub fn gradient(&self) -> [RigidVector; 2] {
-        let normal = self.normal;
-        let [on_body, on_partner] = self.levers.map(|lever| lever.cross(&normal));
-        [join(&normal, &on_body), join(&-normal, &-on_partner)]
+        self.gradient_along(&self.normal)
+    }
+
+    /// Derivatives of the relative displacement of both points along a vector by the displacements of the body and of
+    /// its partner; also the loads of that vector as a force on the body.
+    #[must_use]
+    pub fn gradient_along(&self, vector: &Vector3<f64>) -> [RigidVector; 2] {
+        let [on_body, on_partner] = self.levers.map(|lever| lever.cross(vector));
+        [join(vector, &on_body), join(&-vector, &-on_partner)]
             .map(|gradient| self.modes.project(&gradient))
+    }
+
+    /// Both sides of [`Self::gradient_along`] in one vector.
+    pub(in crate::contact) fn gradient_along_both(&self, vector: &Vector3<f64>) -> PairVector {
+        let [body, partner] = self.gradient_along(vector);
+        PairVector::from_fn(|i, _| if i < 6 { body[i] } else { partner[i - 6] })
     }
 
     /// Derivative of the gap by the motions of some bodies (ascending): body by body, and of each body
@@ -94,8 +106,7 @@ impl ContactPair {
 
     /// Both sides of [`Self::gradient`] in one vector.
     pub(in crate::contact) fn gradient_of_both(&self) -> PairVector {
-        let [body, partner] = self.gradient();
-        PairVector::from_fn(|i, _| if i < 6 { body[i] } else { partner[i - 6] })
+        self.gradient_along_both(&self.normal)
     }
 
     /// Derivative of [`Self::gradient`]: column j is its change by a displacement

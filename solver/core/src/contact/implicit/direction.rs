@@ -33,7 +33,7 @@ impl ContactStep<'_> {
                 let mut displacement = RigidVector::zeros();
                 displacement[mode] = sign * size;
                 poses[body] = poses[body].displaced(&displacement);
-                self.load(&self.gaps.pairs(&poses, self.law.range()))
+                self.load(&self.gaps.pairs(&poses, self.law.range()), &now.velocity)
             });
             stiffness.set_column(row, &((&loads[0] - &loads[1]) / (2.0 * size)));
         }
@@ -51,15 +51,9 @@ impl ContactStep<'_> {
                 block += pair.gradient_derivative() * self.law.force(pair.gap);
             }
             block *= pair.weight;
-            let rows = self.rows_of(pair);
-            for (i, row) in rows.into_iter().enumerate() {
-                for (j, column) in rows.into_iter().enumerate() {
-                    if let (Some(row), Some(column)) = (row, column) {
-                        stiffness[(row, column)] += block[(i, j)];
-                    }
-                }
-            }
+            self.add_block(&mut stiffness, pair, &block);
         }
+        self.add_dissipative_stiffness(&mut stiffness, now);
         stiffness
     }
 
@@ -70,7 +64,10 @@ impl ContactStep<'_> {
             Some(jacobian) => stiffness * jacobian,
             None => stiffness,
         };
-        let matrix = DMatrix::identity(n, n) - self.mobility * by_velocity * self.coefficient;
+        let mut matrix = DMatrix::identity(n, n) - self.mobility * by_velocity * self.coefficient;
+        if let Some(damping) = self.damping(now) {
+            matrix -= self.mobility * damping;
+        }
         let solved = matrix.lu().solve(&now.residual);
         // A singular matrix gives no direction, which the caller sees as a step that is not finite
         solved.map_or_else(|| DVector::from_element(n, f64::NAN), |step| -step)

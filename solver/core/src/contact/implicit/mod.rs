@@ -2,6 +2,7 @@
 
 mod correction;
 mod direction;
+mod dissipative;
 mod step;
 mod unknowns;
 

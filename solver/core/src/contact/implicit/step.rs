@@ -185,7 +185,7 @@ impl ContactStep<'_> {
     }
 
     fn trial(&self, velocity: DVector<f64>, poses: Vec<Pose>, pairs: Vec<ContactPair>) -> Trial {
-        let load = self.load(&pairs);
+        let load = self.load(&pairs, &velocity);
         let pushed = self.mobility * load;
         let free = self.by_row(|index, mode| self.free_velocities[index].component(mode));
         let residual =
@@ -196,13 +196,14 @@ impl ContactStep<'_> {
         Trial { velocity, poses, pairs, residual, norm }
     }
 
-    /// Sum of the loads of pairs, by row.
-    pub(super) fn load(&self, pairs: &[ContactPair]) -> DVector<f64> {
+    /// Sum of the loads of pairs of bodies with these velocities, by row.
+    pub(super) fn load(&self, pairs: &[ContactPair], velocity: &DVector<f64>) -> DVector<f64> {
         let mut load = DVector::zeros(self.n_rows());
         for pair in pairs {
             let force = pair.weight * self.law.force(pair.gap);
             self.scatter(pair, &pair.gradient_of_both(), |row, entry| load[row] += force * entry);
         }
+        self.add_dissipative_load(&mut load, pairs, velocity);
         load
     }
 
@@ -256,11 +257,16 @@ impl ContactStep<'_> {
     fn finish(&self, now: &Trial, step: &DVector<f64>, iterations: usize) -> ContactSolution {
         let velocity = &now.velocity + step;
         let displacement = self.displacement_rate(&now.velocity, step);
-        let contacts = now.pairs.iter().map(|pair| {
+        let dissipative = self.dissipative_forces(now, step);
+        let contacts = now.pairs.iter().enumerate().map(|(nth, pair)| {
             let change = self.coefficient * self.gap_change(pair, &displacement);
             let gap = pair.gap;
             let force = pair.weight * (self.law.force(gap) + self.law.slope(gap) * change);
-            ContactForce { pair: ContactPair { gap: gap + change, ..*pair }, force: force.max(0.0) }
+            ContactForce {
+                pair: ContactPair { gap: gap + change, ..*pair },
+                force: force.max(0.0),
+                dissipative: dissipative.get(nth).copied().unwrap_or_default(),
+            }
         });
         let poses = self.poses(&velocity);
         let minimum_gap = self.gaps.minimum_gap(&poses);

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3};
 
 use super::step::ContactStep;
 use crate::body::{Mode, Pose, RigidVector, Twist};
-use crate::contact::{ContactPair, PairVector, Partner};
+use crate::contact::{ContactPair, PairMatrix, PairVector, Partner};
 
 /// Angle below which the left Jacobian is taken from its series (rad).
 const SMALL_ANGLE: f64 = 1e-2;
@@ -131,6 +131,23 @@ impl ContactStep<'_> {
         for (row, entry) in self.rows_of(pair).into_iter().zip(entries) {
             if let Some(row) = row {
                 add(row, *entry);
+            }
+        }
+    }
+
+    /// Adds a matrix over both sides of a pair to the rows and columns it belongs to.
+    pub(super) fn add_block(
+        &self,
+        matrix: &mut DMatrix<f64>,
+        pair: &ContactPair,
+        block: &PairMatrix,
+    ) {
+        let rows = self.rows_of(pair);
+        for (i, row) in rows.into_iter().enumerate() {
+            for (j, column) in rows.into_iter().enumerate() {
+                if let (Some(row), Some(column)) = (row, column) {
+                    matrix[(row, column)] += block[(i, j)];
+                }
             }
         }
     }

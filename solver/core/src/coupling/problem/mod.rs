@@ -8,6 +8,7 @@ mod mean_flow;
 mod side;
 
 use alewife_mesh::{BoundaryId, Point};
+use nalgebra::Matrix6;
 
 pub use body::{Drive, RigidBody, Spring, second_moments};
 pub use group::Group;
@@ -151,6 +152,25 @@ impl<const D: usize> Problem<D> {
     #[must_use]
     pub fn frame_velocity(&self, twists: &[Twist]) -> Point<D> {
         self.frame.map_or(Point::<D>::zeros(), |body| on_mesh(&twists[body].linear))
+    }
+
+    /// Whether a body is rigid, hangs on no other one and carries none.
+    #[must_use]
+    pub fn is_alone(&self, body: usize) -> bool {
+        let RigidBody { joint, shape, .. } = &self.bodies[body];
+        let mut joints = self.bodies.iter().filter_map(|other| other.joint.as_ref());
+        joint.is_none() && shape.is_none() && joints.all(|joint| joint.parent != body)
+    }
+
+    /// A mass matrix of a body without the motions that are held or given.
+    #[must_use]
+    pub fn free_inertia(&self, body: usize, inertia: &Matrix6<f64>) -> Matrix6<f64> {
+        let is_free = |index: usize| {
+            let drive = self.bodies[body].drive(Mode::ALL[index]);
+            self.modes().iter().any(|mode| mode.index() == index)
+                && matches!(drive, Drive::Free | Drive::Linked)
+        };
+        Matrix6::from_fn(|i, j| if is_free(i) && is_free(j) { inertia[(i, j)] } else { 0.0 })
     }
 
     /// Whether any body hangs on another.

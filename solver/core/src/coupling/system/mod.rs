@@ -64,7 +64,7 @@ pub struct FluidSystem<const D: usize> {
     facet_rule: FacetRule<D>,
     assembly: Assembly<D>,
     pub(super) linear: Box<dyn SystemSolver>,
-    /// What the solver kept when it was marked, if the unknowns have been numbered anew since.
+    /// What the solver kept when it was marked, if the unknowns have been numbered again since.
     kept_memory: Option<SolverMemory>,
     numbering: Numbering,
     pressure: PressureMean,

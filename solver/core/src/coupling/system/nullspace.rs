@@ -138,7 +138,7 @@ fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<NodeWeights<D>> {
     all
 }
 
-/// A facet through which the fluid goes on elsewhere.
+/// A facet through which the fluid continues elsewhere.
 struct Crossing<'a, const D: usize> {
     facet: &'a Facet,
     /// The way to it from its image (m).

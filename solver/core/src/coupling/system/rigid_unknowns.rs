@@ -14,7 +14,7 @@ use crate::flow::Assembly;
 
 impl<const D: usize> FluidSystem<D> {
     /// Makes the system one for these constraints: where joints have turned so that other velocities of
-    /// bodies on them are the unknowns, cells and matrix are numbered anew.
+    /// bodies on them are the unknowns, cells and matrix are numbered again.
     pub fn fit_to(
         &mut self,
         problem: &Problem<D>,

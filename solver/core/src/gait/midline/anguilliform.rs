@@ -5,35 +5,29 @@ use std::f64::consts::TAU;
 use num_dual::{Dual2, DualNum, second_derivative};
 
 use super::frame::{Frame, Frames, smooth_ramp};
+use crate::case::AnguilliformGait;
 use crate::gait::grid::Grid;
 use crate::gait::number::Number;
 
-/// Displacement y = amplitude (s + offset L) sin(2 pi (s/L - t/T - phase)), ramped; material points
-/// keep their arc length (@kern2006).
+/// Displacement y = amplitude (s + offset L) sin(2 pi (s/L - t/T - phase)), ramped by x² (3 - 2x),
+/// x = t / ramp; material points keep their arc length (@kern2006).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Anguilliform {
     /// Length L (m).
     pub length: f64,
-    /// Slope of the envelope.
-    pub amplitude: f64,
-    /// Where the envelope is zero: before the head by this part of the length.
-    pub offset: f64,
-    /// Period T (s).
-    pub period: f64,
-    /// Start in the period (periods).
-    pub phase: f64,
-    /// Duration of the ramp x² (3 - 2x), x = t / ramp (s).
-    pub ramp: f64,
+    /// The wave.
+    pub gait: AnguilliformGait,
 }
 
 impl Anguilliform {
     pub(super) fn frames<D: Number>(&self, grid: &Grid, time: D) -> Frames<D> {
-        let ramp = smooth_ramp(time, self.ramp);
+        let ramp = smooth_ramp(time, self.gait.ramp());
         // Displacement, slope and second derivative along the midline
         let lateral = |along: f64| {
             let wave = |s: Dual2<D>| {
-                let phase = s / self.length - Dual2::from_re(time / self.period + self.phase);
-                let envelope = (s + self.offset * self.length) * self.amplitude;
+                let phase =
+                    s / self.length - Dual2::from_re(time / self.gait.period + self.gait.phase);
+                let envelope = (s + self.gait.offset * self.length) * self.gait.amplitude;
                 (phase * TAU).sin() * envelope * Dual2::from_re(ramp)
             };
             second_derivative(wave, D::from(along))

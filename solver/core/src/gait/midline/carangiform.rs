@@ -4,34 +4,28 @@ use std::f64::consts::TAU;
 
 use super::frame::{Frame, Frames, smooth_ramp};
 use super::natural_spline::NaturalSpline;
+use crate::case::CarangiformGait;
 use crate::gait::grid::Grid;
 use crate::gait::number::Number;
 
-/// Curvature K(s) (sin(2 pi (t/T + phase - s/L)) + bending), ramped (@novati2017).
+/// Curvature K(s) (sin(2 pi (t/T + phase - s/L)) + bending), ramped by x² (3 - 2x), x = t / ramp
+/// (@novati2017).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Carangiform {
     /// Length L (m).
     pub length: f64,
-    /// Positions s/L, ascending, and K L there, joined by a natural cubic spline.
-    pub curvature: Vec<[f64; 2]>,
-    /// Constant part of the bracket, which steers.
-    pub bending: f64,
-    /// Period T (s).
-    pub period: f64,
-    /// Start in the period (periods).
-    pub phase: f64,
-    /// Duration of the ramp x² (3 - 2x), x = t / ramp (s).
-    pub ramp: f64,
+    /// The wave.
+    pub gait: CarangiformGait,
 }
 
 impl Carangiform {
     pub(super) fn frames<D: Number>(&self, grid: &Grid, time: D) -> Frames<D> {
-        let spline = NaturalSpline::new(&self.curvature);
-        let ramp = smooth_ramp(time, self.ramp);
+        let spline = NaturalSpline::new(&self.gait.curvature);
+        let ramp = smooth_ramp(time, self.gait.ramp());
         let curvature = |along: f64| {
             let s = along / self.length;
-            let phase = (time / self.period + (self.phase - s)) * TAU;
-            ramp * (phase.sin() + self.bending) * (spline.at(s) / self.length)
+            let phase = (time / self.gait.period + (self.gait.phase - s)) * TAU;
+            ramp * (phase.sin() + self.gait.bending) * (spline.at(s) / self.length)
         };
         let curvatures: Vec<D> = grid.nodes.iter().map(|node| curvature(node.along)).collect();
         let zero = D::from(0.0);

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use num_dual::{Dual, Dual2, first_derivative, second_derivative};
 
 use super::frame::{Frame, Frames};
+use crate::case::FlagellumGait;
 use crate::gait::grid::Grid;
 use crate::gait::number::{Number, cross};
 
@@ -22,39 +23,28 @@ pub struct Flagellum {
     /// Length of the rigid head (m).
     pub head: f64,
     /// Length L of the tail (m).
-    pub length: f64,
-    /// Amplitude at its end (m).
-    pub amplitude: f64,
-    /// Wavelength lambda (m).
-    pub wavelength: f64,
-    /// Period T (s).
-    pub period: f64,
-    /// Start in the period (periods).
-    pub phase: f64,
-    /// Time constant of the ramp (s); 0 for none.
-    pub ramp: f64,
-    /// Length over which the tail begins to bend (m).
-    pub joint: f64,
-    /// Whether the midline keeps its length.
-    pub inextensible: bool,
+    pub tail: f64,
+    /// The wave.
+    pub gait: FlagellumGait,
 }
 
 impl Flagellum {
     /// Amplitude at a distance along the tail (m).
     fn envelope<D: Number>(&self, along: D) -> D {
-        let x = along / self.joint;
+        let x = along / self.gait.joint(self.tail);
         // Three continuous derivatives at the head, smooth everywhere else
-        -(-x * x * x).exp_m1() * along * (self.amplitude / self.length)
+        -(-x * x * x).exp_m1() * along * (self.gait.amplitude / self.tail)
     }
 
     /// 1 - exp(-t / ramp).
     fn ramp<D: Number>(&self, time: D) -> D {
-        if self.ramp > 0.0 { -(-time / self.ramp).exp_m1() } else { D::from(1.0) }
+        let ramp = self.gait.ramp();
+        if ramp > 0.0 { -(-time / ramp).exp_m1() } else { D::from(1.0) }
     }
 
     /// Lateral displacement (m) at a distance from the head along the axis (m), without the ramp.
     fn wave<D: Number>(&self, x: D, time: D) -> D {
-        let phase = x / self.wavelength - time / self.period - self.phase;
+        let phase = x / self.gait.wavelength - time / self.gait.period - self.gait.phase;
         self.envelope(x) * (phase * TAU).sin()
     }
 
@@ -98,10 +88,11 @@ impl Flagellum {
     fn ramped_integral<D: Number>(&self, frequency: f64, lag: D, time: D) -> D {
         let now = time * frequency - lag;
         let free = (now.sin() + lag.sin()) / frequency;
-        if self.ramp <= 0.0 {
+        let ramp = self.gait.ramp();
+        if ramp <= 0.0 {
             return free;
         }
-        let decay = 1.0 / self.ramp;
+        let decay = 1.0 / ramp;
         let end = (now.sin() * frequency - now.cos() * decay) * (-time * decay).exp();
         let start = -(lag.sin() * frequency + lag.cos() * decay);
         free - (end - start) / (decay * decay + frequency * frequency)
@@ -112,9 +103,9 @@ impl Flagellum {
         if along <= self.head {
             return Frame::straight(along);
         }
-        let frequency = TAU / self.period;
+        let frequency = TAU / self.gait.period;
         let time = |s: Dual2<D>| (s, Dual2::from_re(time));
-        let lag = |s: Dual2<D>| (s / self.wavelength - self.phase) * TAU;
+        let lag = |s: Dual2<D>| (s / self.gait.wavelength - self.gait.phase) * TAU;
         let lateral = |s: Dual2<D>| {
             let (s, time) = time(s);
             self.envelope(s) * self.ramped_integral(frequency, lag(s), time) * frequency
@@ -122,7 +113,7 @@ impl Flagellum {
         let axial = |s: Dual2<D>| {
             let (s, time) = time(s);
             let envelope = self.envelope(s);
-            let factor = 0.25 * TAU * TAU / (self.wavelength * self.period);
+            let factor = 0.25 * TAU * TAU / (self.gait.wavelength * self.gait.period);
             let integral = self.ramped_integral(2.0 * frequency, lag(s) * 2.0, time);
             envelope * envelope * integral * factor
         };
@@ -148,14 +139,16 @@ mod tests {
     fn the_integral_of_a_ramped_wave_has_the_ramped_wave_as_its_rate() {
         let tail = Flagellum {
             head: 4.0,
-            length: 50.0,
-            amplitude: 4.0,
-            wavelength: 20.0,
-            period: 0.3,
-            phase: 0.0,
-            ramp: 0.7,
-            joint: 2.0,
-            inextensible: false,
+            tail: 50.0,
+            gait: FlagellumGait {
+                amplitude: 4.0,
+                wavelength: 20.0,
+                period: 0.3,
+                phase: 0.0,
+                ramp: Some(0.7),
+                joint: Some(2.0),
+                inextensible: false,
+            },
         };
         for time in [0.0_f64, 0.2, 1.7] {
             let integral = |t: num_dual::Dual64| tail.ramped_integral(21.0, 0.4.into(), t);

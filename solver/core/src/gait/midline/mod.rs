@@ -39,9 +39,9 @@ impl Midline {
     /// Duration after which the gait is periodic (s), and the period (s).
     pub fn cycle(&self) -> [f64; 2] {
         match self {
-            Self::Carangiform(gait) => [gait.ramp, gait.period],
-            Self::Anguilliform(gait) => [gait.ramp, gait.period],
-            Self::Flagellum(gait) => [RAMP_TIMES * gait.ramp, gait.period],
+            Self::Carangiform(Carangiform { gait, .. }) => [gait.ramp(), gait.period],
+            Self::Anguilliform(Anguilliform { gait, .. }) => [gait.ramp(), gait.period],
+            Self::Flagellum(Flagellum { gait, .. }) => [RAMP_TIMES * gait.ramp(), gait.period],
             Self::Joints(gait) => gait.cycle,
         }
     }
@@ -57,8 +57,8 @@ impl Midline {
     /// Distances along the midline (m) at which a derivative of it jumps.
     pub fn discontinuities(&self) -> Vec<f64> {
         match self {
-            Self::Carangiform(gait) => {
-                gait.curvature.iter().map(|[position, _]| position * gait.length).collect()
+            Self::Carangiform(Carangiform { length, gait }) => {
+                gait.curvature.iter().map(|[position, _]| position * length).collect()
             }
             Self::Anguilliform(_) => Vec::new(),
             Self::Flagellum(gait) => vec![gait.head],
@@ -72,9 +72,9 @@ impl Midline {
             Self::Carangiform(gait) => gait.frames(grid, time),
             Self::Anguilliform(gait) => gait.frames(grid, time),
             Self::Joints(gait) => gait.frames(grid, time),
-            Self::Flagellum(gait) if gait.inextensible => gait.inextensible_frames(grid, time),
-            Self::Flagellum(gait) => {
-                let frame = |along: f64| gait.displaced(along, time);
+            Self::Flagellum(tail) if tail.gait.inextensible => tail.inextensible_frames(grid, time),
+            Self::Flagellum(tail) => {
+                let frame = |along: f64| tail.displaced(along, time);
                 Frames {
                     nodes: grid.nodes.iter().map(|node| frame(node.along)).collect(),
                     stations: grid.stations.iter().map(|at| frame(at.along)).collect(),

@@ -1,4 +1,4 @@
-//! Outlines have no linear momentum, and what is told to be subtracted for that is what is.
+//! Outlines have no linear momentum, and what is reported as subtracted for that is what is subtracted.
 
 use alewife_mesh::{GaussRule, Point, Shape};
 
@@ -36,14 +36,14 @@ fn no_linear_momentum_is_left() {
     }
 }
 
-/// What is told to be subtracted is what is, and its rates are the derivatives of its positions.
+/// What is reported as subtracted is what is subtracted, and its rates are the derivatives of its positions.
 #[test]
 fn the_recoil_of_a_period_is_that_of_its_times() {
     for (name, profile, midline, _) in all() {
         let [transient, period] = midline.cycle();
         let swimmer = SlenderBody::new(&profile, midline).unwrap();
-        let told = swimmer.recoil().unwrap();
-        println!("{name}: {told:?}");
+        let recoil = swimmer.recoil().unwrap();
+        println!("{name}: {recoil:?}");
         let at = |t: f64| swimmer.at(t).unwrap().recoil;
         let (mut speed, mut turning) = (0.0, 0.0);
         let mut far: f64 = 0.0;
@@ -53,21 +53,26 @@ fn the_recoil_of_a_period_is_that_of_its_times() {
             let now = at(time);
             let step = 2e-3 * period;
             let velocity = difference(|t| at(t).center, time, step);
-            let off = (velocity - now.velocity).norm() / told.largest_speed;
+            let off = (velocity - now.velocity).norm() / recoil.largest_speed;
             assert!(i % 8 != 3 || off < 1e-6, "{name}: {off:.1e}");
             let turn = difference(|t| at(t).angle, time, step);
-            let off = (turn - now.angular_velocity).abs() / told.largest_angular_velocity;
+            let off = (turn - now.angular_velocity).abs() / recoil.largest_angular_velocity;
             assert!(i % 8 != 3 || off < 1e-6, "{name}: {off:.1e}");
             speed = f64::max(speed, now.velocity.norm());
             turning = f64::max(turning, now.angular_velocity.abs());
             let opposite = at(time + 0.5 * period);
             far = far.max((now.center - opposite.center).norm());
         }
-        assert!(speed <= told.largest_speed * (1.0 + 1e-4) && speed > 0.98 * told.largest_speed);
-        let most = told.largest_angular_velocity;
+        assert!(
+            speed <= recoil.largest_speed * (1.0 + 1e-4) && speed > 0.98 * recoil.largest_speed
+        );
+        let most = recoil.largest_angular_velocity;
         assert!(turning <= most * (1.0 + 1e-4) && turning > 0.98 * most, "{name}");
-        assert!(far <= 2.0 * told.translation && far > told.translation, "{name}");
+        assert!(far <= 2.0 * recoil.translation && far > recoil.translation, "{name}");
         let turn = at(transient + period).angle - at(transient).angle;
-        assert!(told.rms_speed < told.largest_speed && (told.turn - turn).abs() < 1e-9, "{name}");
+        assert!(
+            recoil.rms_speed < recoil.largest_speed && (recoil.turn - turn).abs() < 1e-9,
+            "{name}"
+        );
     }
 }

@@ -123,7 +123,7 @@ fn volume_and_centre_stay_and_velocities_are_the_rates_of_places() {
                 worst = worst.max((exact - now.velocity(at)).norm());
                 let found = now.material_at(&now.place(at));
                 let off = (now.place(found) - now.place(at)).norm();
-                // The ends themselves are told to 1e-9 of the length
+                // The ends themselves are known to 1e-9 of the length
                 assert!(off < 3e-9 * length, "{name}: material point off by {off:.1e}");
             }
             assert!(worst < 1e-7 * length / period, "{name} at {time}: rates off by {worst:.1e}");

@@ -23,20 +23,38 @@ use crate::body::{Orientation, Pose};
 use crate::case::{
     Case, ContactSpec, FlowModel, Geometry, MeanFlowSpec, Model, Stroke, SwimmerModel, TimeSettings,
 };
-use crate::contact::{Law, LawKind};
+use crate::contact::{ContactError, Dissipation, Law, LawKind};
 use crate::coupling::{
     BodyShapes, Group, MeanFlow, MeanFlowAlong, Problem, RateDiscontinuities, Side,
 };
 use crate::space::Metric;
 use crate::time::factor_at;
 
+/// Speed of slip over the expected one.
+const SLIP: f64 = 1e-3;
+
 /// The law of contact a case asks for.
-pub(super) fn contact_law(contact: &ContactSpec) -> Result<Law, RunError> {
-    let (kind, range) = match *contact {
-        ContactSpec::Quadratic { range, epsilon } => (LawKind::Quadratic { epsilon }, range),
-        ContactSpec::Barrier { range, stiffness } => (LawKind::Barrier { stiffness }, range),
+///
+/// # Errors
+/// When one of its numbers is not what it can be.
+pub(super) fn contact_law(model: &Model) -> Result<Option<Law>, RunError> {
+    let Some(contact) = &model.case.contact else { return Ok(None) };
+    let kind = match *contact {
+        ContactSpec::Quadratic { epsilon, .. } => LawKind::Quadratic { epsilon },
+        ContactSpec::Barrier { stiffness, .. } => LawKind::Barrier { stiffness },
     };
-    Law::new(kind, range).map_err(|error| RunError::Unsupported(error.to_string()))
+    let refused = |error: ContactError| RunError::Unsupported(error.to_string());
+    let law = Law::new(kind, contact.range()).map_err(refused)?;
+    let losses = contact.losses();
+    if !losses.are_any() {
+        return Ok(Some(law));
+    }
+    let dissipation = Dissipation {
+        restitution: losses.restitution.unwrap_or(1.0),
+        friction: losses.friction.unwrap_or(0.0),
+        slip: losses.slip.or(model.expected_speed().map(|speed| SLIP * speed)).unwrap_or(0.0),
+    };
+    Ok(Some(law.with_dissipation(dissipation).map_err(refused)?))
 }
 
 /// The problem of a case on its mesh.

@@ -42,36 +42,16 @@ pub fn shape_motion(
             return Ok(Some(Arc::new(Pulse { radius: *radius, is_sphere, law })));
         }
         (Some(GaitSpec::Carangiform(gait)), ShapeSpec::Fish(fish)) => {
-            Midline::Carangiform(Carangiform {
-                length: fish.length,
-                curvature: gait.curvature.clone(),
-                bending: gait.bending,
-                period: gait.period,
-                phase: gait.phase,
-                ramp: gait.ramp.unwrap_or(gait.period),
-            })
+            Midline::Carangiform(Carangiform { length: fish.length, gait: gait.clone() })
         }
         (Some(GaitSpec::Anguilliform(gait)), ShapeSpec::Fish(fish)) => {
-            Midline::Anguilliform(Anguilliform {
-                length: fish.length,
-                amplitude: gait.amplitude,
-                offset: gait.offset,
-                period: gait.period,
-                phase: gait.phase,
-                ramp: gait.ramp.unwrap_or(gait.period),
-            })
+            Midline::Anguilliform(Anguilliform { length: fish.length, gait: gait.clone() })
         }
         (Some(GaitSpec::Flagellum(gait)), ShapeSpec::Flagellate(body)) => {
             Midline::Flagellum(Flagellum {
                 head: 2.0 * body.head[0],
-                length: body.tail_length,
-                amplitude: gait.amplitude,
-                wavelength: gait.wavelength,
-                period: gait.period,
-                phase: gait.phase,
-                ramp: gait.ramp.unwrap_or(gait.period),
-                joint: gait.joint.unwrap_or(body.tail_length / 20.0),
-                inextensible: gait.inextensible,
+                tail: body.tail_length,
+                gait: gait.clone(),
             })
         }
         (Some(GaitSpec::Joints(gait)), ShapeSpec::Tube(_)) => Midline::Joints(joints(gait)),

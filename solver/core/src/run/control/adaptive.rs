@@ -1,7 +1,7 @@
 //! Steps as long as their error, the cells and the gaps allow.
 
 use super::start::start_pieces;
-use super::{NEAR, Piece, SMALLEST_PART, step_size_underflow};
+use super::{NEAR, Piece, SMALLEST_PART, step_size_factor, step_size_underflow};
 use crate::case::{Adaptive, Scheme, Unsteady};
 use crate::run::RunError;
 use crate::run::run::{Run, StepSummary};
@@ -10,6 +10,9 @@ use crate::step::{StepError, StepReport};
 
 /// Part of the time to the end that is rounding.
 const AT_END: f64 = 1e-9;
+
+/// Largest growth of a step over the one before.
+const LARGEST_GROWTH: f64 = 1.5;
 
 /// Bounds of the steps (s).
 #[derive(Clone, Copy)]
@@ -24,12 +27,6 @@ struct Made {
     size: f64,
     /// Whether a longer one was rejected before.
     is_shortened: bool,
-}
-
-/// Factor of the next step after a step with this error over the tolerance; the error goes with the
-/// third power of the step.
-fn step_size_factor(error: f64) -> f64 {
-    if error > 0.0 { (0.85 * error.powf(-1.0 / 3.0)).clamp(0.3, 1.5) } else { 1.5 }
 }
 
 impl<const D: usize> Run<'_, D> {
@@ -60,8 +57,8 @@ impl<const D: usize> Run<'_, D> {
             let floor = if is_start { floor.min(SMALLEST_PART * size) } else { floor };
             let gap = self.simulation.state.contact.minimum_gap.map(|minimum| minimum.gap);
             let made = self.adaptive_step(adaptive, size, floor)?;
-            let error = made.report.error / adaptive.tolerance;
-            let factor = if is_start { 2.0 } else { step_size_factor(error) };
+            let error = (made.report.error / adaptive.tolerance).max(made.report.contact_error);
+            let factor = if is_start { 2.0 } else { step_size_factor(error, LARGEST_GROWTH) };
             let crossing = self.simulation.cell_crossing();
             let longest = adaptive.cfl / crossing.rate;
             let proposed = self.propose(adaptive, made.size, factor, gap).min(longest);
@@ -137,7 +134,7 @@ impl<const D: usize> Run<'_, D> {
                     return Err(step_size_underflow(self, size, &error));
                 }
                 Attempt::Rejected(StepError::LocalErrorTooLarge { error, .. }) => {
-                    size *= step_size_factor(error / adaptive.tolerance).min(0.7);
+                    size *= step_size_factor(error / adaptive.tolerance, LARGEST_GROWTH).min(0.7);
                 }
                 Attempt::Rejected(_) => size *= 0.5,
             }

@@ -1,13 +1,15 @@
 //! Fixed steps, halved where they must be.
 
 use super::start::pieces;
-use super::{NEAR, Piece, SMALLEST_PART, step_size_underflow};
+use super::{
+    NEAR, Piece, SMALLEST_PART, SMALLEST_PART_IN_CONTACT, step_size_factor, step_size_underflow,
+};
 use crate::case::{Scheme, Unsteady};
 use crate::coupling::SurfaceLoads;
 use crate::run::RunError;
 use crate::run::run::{Run, StepSummary};
 use crate::run::simulation::{Attempt, Simulation};
-use crate::step::StepReport;
+use crate::step::{StepError, StepReport};
 
 /// Growth of a step over the one before beyond which BDF2 would not be stable.
 const LARGEST_GROWTH: f64 = 2.1;
@@ -61,7 +63,6 @@ impl<const D: usize> Run<'_, D> {
 
     /// Makes a step to a time (s) in its pieces, or the rest of it, in halves where it must be.
     fn fixed_step(&mut self, settings: &Unsteady, target: f64) -> Result<StepTally, RunError> {
-        let smallest = settings.step * SMALLEST_PART;
         let mut tally = StepTally::default();
         let mut to_do = self.pieces_to(settings, target);
         while let Some(piece) = to_do.pop() {
@@ -69,22 +70,24 @@ impl<const D: usize> Run<'_, D> {
                 // What was before does not count for what comes
                 self.simulation.state.restart();
             }
-            let (size, before) = (piece.size, self.simulation.state.last_step);
-            let grows = before > 0.0 && size > LARGEST_GROWTH * before;
-            if grows && settings.scheme == Scheme::Bdf2 {
+            let size = piece.size;
+            if size > self.longest_piece(settings) {
                 to_do.extend(halves(piece));
                 continue;
             }
             match self.simulation.try_step(size, f64::INFINITY)? {
                 Attempt::Made(step) => {
+                    self.simulation.control.contact_step = (step.contact_error > 0.0)
+                        .then(|| size * step_size_factor(step.contact_error, LARGEST_GROWTH));
                     tally.add(step);
                     // A run that resumes makes these, and tries again what was rejected before
                     self.simulation.control.pieces.clone_from(&to_do);
                     if !to_do.is_empty() {
                         self.simulation.state.continue_step();
+                        self.note_piece(&tally.loads);
                     }
                 }
-                Attempt::Rejected(error) if size <= smallest => {
+                Attempt::Rejected(error) if size <= settings.step * smallest_part(&error) => {
                     return Err(step_size_underflow(self, size, &error));
                 }
                 Attempt::Rejected(_) => to_do.extend(halves(piece)),
@@ -98,6 +101,14 @@ impl<const D: usize> Run<'_, D> {
         Ok(tally)
     }
 
+    /// The longest piece that may follow what has been made (s).
+    fn longest_piece(&self, settings: &Unsteady) -> f64 {
+        let Simulation { state, control, .. } = &self.simulation;
+        let contact = control.contact_step.unwrap_or(f64::INFINITY);
+        let is_bound = settings.scheme == Scheme::Bdf2 && state.last_step > 0.0;
+        if is_bound { contact.min(LARGEST_GROWTH * state.last_step) } else { contact }
+    }
+
     /// The pieces of a step to a time (s), the next one last: what a run that resumes has left of them.
     fn pieces_to(&self, settings: &Unsteady, target: f64) -> Vec<Piece> {
         let Simulation { state, control, .. } = &self.simulation;
@@ -107,6 +118,14 @@ impl<const D: usize> Run<'_, D> {
         } else {
             pieces(settings, &self.simulation, target)
         }
+    }
+}
+
+/// The smallest part of a step that is tried after an error.
+fn smallest_part(error: &StepError) -> f64 {
+    match error {
+        StepError::ContactNotResolved { .. } => SMALLEST_PART_IN_CONTACT,
+        _ => SMALLEST_PART,
     }
 }
 

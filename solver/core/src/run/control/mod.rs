@@ -18,8 +18,17 @@ const NEAR: f64 = 1e-7;
 /// The smallest step over the given one, of fixed steps that are halved where they must be.
 const SMALLEST_PART: f64 = 1.0 / 1024.0;
 
+/// The smallest step over the given one where bodies are in contact, which may be over in any time.
+const SMALLEST_PART_IN_CONTACT: f64 = 1e-8;
+
 /// Part of the domain that no body goes in the smallest step when all is in one system of units.
 const FAR: f64 = 1e-3;
+
+/// Factor of the next step after a step with this error over the tolerance, `most` at most; the error goes
+/// with the third power of the step.
+fn step_size_factor(error: f64, most: f64) -> f64 {
+    if error > 0.0 { (0.85 * error.powf(-1.0 / 3.0)).clamp(0.3, most) } else { most }
+}
 
 /// Length of the domain along a coordinate (m).
 fn extent_along<const D: usize>(nodes: &[Point<D>], axis: usize) -> f64 {

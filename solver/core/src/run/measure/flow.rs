@@ -38,6 +38,8 @@ pub(in crate::run) struct FlowMeasurement {
     density_over_viscosity: f64,
     /// Smallest gap between bodies and walls (m).
     minimum_gap: f64,
+    /// Energy stored in contact, and made there by errors of the steps (J).
+    contact: [f64; 2],
     cells: usize,
     remeshes: usize,
 }
@@ -67,6 +69,7 @@ impl FlowMeasurement {
             last_step: state.last_step,
             density_over_viscosity: problem.density / problem.viscosity,
             minimum_gap: state.contact.minimum_gap.map_or(f64::INFINITY, |minimum| minimum.gap),
+            contact: [state.contact.energy, state.contact.energy_made],
             cells: state.mesh.n_cells(),
             remeshes: state.remeshes,
         }
@@ -124,6 +127,8 @@ impl FlowMeasurement {
             FlowQuantity::MassDefect => self.mass_defect.into(),
             FlowQuantity::EnergyDefect => self.energy_defect.into(),
             FlowQuantity::MomentumDefect => self.momentum_defect.into(),
+            FlowQuantity::ContactEnergy => self.contact[0].into(),
+            FlowQuantity::ContactEnergyMade => self.contact[1].into(),
             FlowQuantity::PressureGradient => of_mean_flow(|report| report.pressure_gradient),
             FlowQuantity::MeanVelocity => of_mean_flow(|report| report.velocity),
             FlowQuantity::Cfl => self.cfl().into(),

@@ -22,7 +22,8 @@ use super::RunError;
 use super::simulation::{CellCrossing, Simulation};
 use super::snapshot::BodyReport;
 use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
-use crate::coupling::{Group, SurfaceLoads};
+use crate::coupling::{Group, Problem, SurfaceLoads};
+use crate::state::State;
 use crate::timing::Stage;
 
 /// Measures a run; made once a mesh.
@@ -125,16 +126,7 @@ impl<const D: usize> Measure<D> {
             })
             .collect();
         let probes = self.probes.values(state);
-        if self.balances_energy {
-            let has_memory = self.is_unsteady && problem.has_inertia;
-            flow.energy_defect =
-                state.record_energy(has_memory, flow.energy_record(problem, state.time, loads));
-        }
-        if self.balances_momentum {
-            let fluid = flow.fluid_momentum(problem.density);
-            let record = momentum_record(problem, state, loads, &fluid);
-            flow.momentum_defect = state.record_momentum(record);
-        }
+        self.balance(problem, state, loads, &mut flow);
         let value = |column: &Column| match column.source {
             Source::Body(body, quantity) => BodyMotion {
                 report: &bodies[body],
@@ -151,5 +143,35 @@ impl<const D: usize> Measure<D> {
         let of_column = |column: &Column| value(column).component(column.component);
         let values = self.columns.iter().map(of_column).collect();
         Ok(Measured { bodies, values, flow })
+    }
+
+    /// Adds to the balances of energy and momentum.
+    fn balance(
+        &self,
+        problem: &Problem<D>,
+        state: &mut State<D>,
+        loads: &SurfaceLoads,
+        flow: &mut FlowMeasurement,
+    ) {
+        if self.balances_energy {
+            let has_memory = self.is_unsteady && problem.has_inertia;
+            flow.energy_defect =
+                state.record_energy(has_memory, flow.energy_record(problem, state.time, loads));
+        }
+        if self.balances_momentum {
+            let fluid = flow.fluid_momentum(problem.density);
+            let record = momentum_record(problem, state, loads, &fluid);
+            flow.momentum_defect = state.record_momentum(record);
+        }
+    }
+
+    /// Adds a piece of a step to the balances: bodies that rebound within a step exchange more than its ends tell.
+    pub fn balance_piece(&self, simulation: &mut Simulation<D>, loads: &SurfaceLoads) {
+        if !(self.balances_energy || self.balances_momentum) {
+            return;
+        }
+        let mut flow = FlowMeasurement::new(simulation, Some(CellCrossing::default()));
+        let Simulation { problem, state, .. } = simulation;
+        self.balance(problem, state, loads, &mut flow);
     }
 }

@@ -31,7 +31,8 @@ pub(super) fn momentum_record<const D: usize>(
         let external =
             rigid.external(state.time, &state.poses[body]).fixed_rows::<3>(0).into_owned();
         let fluid = loads.bodies[body].load.force;
-        let force = fluid + state.contact.wrenches[body].force + external;
+        let others = fluid + external;
+        let force = others + state.contact.wrenches[body].force;
         // Forces in joints and springs are not known here
         let is_alone = !problem.has_joints() && rigid.spring.is_none();
         let counts =
@@ -40,13 +41,18 @@ pub(super) fn momentum_record<const D: usize>(
             Vector3::from_fn(|i, _| if counts(i) { vector[i] } else { 0.0 })
         };
         let momentum = state.now.twists[body].linear * rigid.inertia.mass;
-        let part = Part { momentum: along(&momentum), force: along(&force) };
-        exchange += part.force.norm() + (fluid - along(&fluid)).norm();
+        let contact = state.contact.impulses.get(body).map_or(Vector3::zeros(), along);
+        let part = Part { momentum: along(&momentum), force: along(&others), contact };
+        exchange += along(&force).norm() + (fluid - along(&fluid)).norm();
         bodies.push(part);
     }
     MomentumRecord {
         time: state.time,
-        fluid: Part { momentum: fluid.momentum, force: loads.boundary_force + fluid.mean_force },
+        fluid: Part {
+            momentum: fluid.momentum,
+            force: loads.boundary_force + fluid.mean_force,
+            contact: Vector3::zeros(),
+        },
         bodies,
         exchange,
         scale: fluid.scale,

@@ -23,7 +23,7 @@ const MANY_MESHES: usize = 3;
 
 /// CFL number up to which extrapolated convection was found to agree with Newton's method
 /// (docs/method.md, section 6).
-const LARGEST_CFL: f64 = 5.0;
+const LARGEST_CFL: f64 = Convection::LARGEST_CFL;
 
 impl<const D: usize> Run<'_, D> {
     /// Ends a run whose flow has blown up, and warns of steps too long for its convection and of contact

@@ -129,6 +129,7 @@ impl<const D: usize> TimeStepper<'_, D> {
             loads: flow.loads.clone(),
             iterations: stages.iterations,
             error: self.explicit_error(state, &poses, &stages.rates, size)?,
+            contact_error: 0.0,
         };
         let level = self.explicit_level(state, size, flow, poses, &stages)?;
         Ok(StepResult { level, report })

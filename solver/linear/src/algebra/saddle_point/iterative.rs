@@ -20,7 +20,7 @@ pub struct IterativeSettings {
     /// Euclidean norm of the residual over that of the right-hand side that is reached; momentum and
     /// mass are scaled against each other.
     pub tolerance: f64,
-    /// Iterations after which GCR starts anew.
+    /// Iterations after which GCR restarts.
     pub restart: usize,
     /// Iterations of one solution at most.
     pub max_iterations: usize,
@@ -141,7 +141,7 @@ impl IterativeSolver {
     /// Marks what it keeps at present as its memory, which may be asked for later.
     pub fn mark(&mut self) {
         self.marked = Marked { earlier: self.earlier.clone(), is_direct: self.is_direct() };
-        // No part of the memory: whoever recalls that goes on without
+        // No part of the memory: whoever recalls that continues without
         if let Some(set_up) = &mut self.set_up {
             set_up.space = KrylovSpace::default();
         }

@@ -1,7 +1,7 @@
 //! `KrylovSpace`: corrections of least residual in single precision, by GCR (@eisenstat1983).
 //!
 //! Without rounding the residuals are those of FGMRES (@saad1993). Directions and their images stay when the
-//! residual is computed anew in double precision: what they have of it is taken off, and convergence goes on
+//! residual is computed again in double precision: what they have of it is taken off, and convergence continues
 //! as if nothing had been rounded.
 
 use super::matrix::Blocks;

@@ -8,7 +8,7 @@ pub(super) const CYCLE: f64 = 1e-3;
 /// Part of the tolerance that they are to reach, since their own residual is not exact.
 pub(super) const AIM: f64 = 0.8;
 
-/// Most times that iterations go on for these rows, and what they are to leave of the residual each time.
+/// Most times that iterations continue for these rows, and what they are to leave of the residual each time.
 const ROUNDS: usize = 4;
 const ROUND: f64 = 0.3;
 /// Times the tolerance that a correction of these rows may leave in all rows.
@@ -18,7 +18,7 @@ const LOSS: f64 = 10.0;
 ///
 /// A residual that is small in the norm of all rows may be large in these, of which each is the volume that a part of
 /// the fluid gains or loses. They are corrected as a fractional step does it (@chorin1968), which makes the residual of
-/// the others two to four times as large; iterations go on where that is too much.
+/// the others two to four times as large; iterations continue where that is too much.
 pub(super) struct MassRows {
     /// Largest sum of the sizes of these rows.
     limit: f64,

@@ -1,6 +1,6 @@
 //! How many threads a run uses.
 
-use crate::cli::exit::{Exit, Failure};
+use super::failure::{Exit, Failure};
 
 /// Variables that say how many threads there are to be, the first one set decides.
 ///

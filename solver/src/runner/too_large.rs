@@ -1,14 +1,14 @@
 //! A mesh that does not fit into memory, by the key of the case that asks for it.
 
+use super::failure::Failure;
 use crate::case::{CaseFile, Diagnostic, Severity};
-use crate::cli::exit::Failure;
 use crate::run::RunError;
 
 /// Growth of cells below which it is likely what makes a mesh large: half of what it is by default.
 const SLOW_GROWTH: f64 = 0.1;
 
 /// The failure of a run or of its mesh, with the place in the case where that is to blame.
-pub fn failure(file: &CaseFile, error: RunError) -> Failure {
+pub fn too_large(file: &CaseFile, error: RunError) -> Failure {
     if !matches!(error, RunError::TooLarge { .. } | RunError::TooManyCells { .. }) {
         return error.into();
     }
@@ -41,7 +41,7 @@ mod tests {
             let settings: Vec<String> = settings.iter().map(|one| (*one).to_owned()).collect();
             let file = Case::read("three-disc-2d", &settings).unwrap();
             let error = RunError::TooLarge { n_dofs: 10, needed: 37.0, available: 8.0 };
-            failure(&file, error).message
+            too_large(&file, error).message
         };
         let growth = told(&["mesh.growth=0.01"]);
         assert!(growth.contains("look at is `mesh.growth` = 0.01"), "{growth}");

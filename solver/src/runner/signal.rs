@@ -5,9 +5,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGXFSZ};
+use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGXFSZ};
 use signal_hook::flag;
 
+use super::failure::Exit;
 use crate::run::{Observer, Snapshot};
 use crate::step::StopRequest;
 
@@ -62,6 +63,15 @@ impl SignalWatch {
 /// When the system refuses.
 pub fn outlive_file_size_limit() -> io::Result<()> {
     flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))).map(drop)
+}
+
+/// Gives the end for want of memory a code of its own: there nothing can be handed back, and the process is aborted.
+///
+/// # Errors
+/// When the system refuses.
+pub fn end_aborted_with(exit: Exit) -> io::Result<()> {
+    let is_set = Arc::new(AtomicBool::new(true));
+    flag::register_conditional_shutdown(SIGABRT, i32::from(exit as u8), is_set).map(drop)
 }
 
 impl<const D: usize> Observer<D> for SignalWatch {

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use super::failure::{Exit, Failure};
+use super::simulate::Resumed;
 use crate::case::{Case, CaseFile, TimeSettings, collect_keys};
-use crate::cli::engine::Resumed;
-use crate::cli::exit::{Exit, Failure};
 use crate::observer::{Checkpoint, History, RunState, Status, checkpoints, latest_checkpoint};
 
 /// Tables of a case that change nothing of what is computed.
@@ -48,7 +48,7 @@ pub fn beginning<const D: usize>(
     file: &CaseFile,
     is_asked: bool,
 ) -> Result<Beginning<D>, Failure> {
-    let Ok(status) = Status::read(out) else { return Ok(Beginning::AtStart) };
+    let Some(status) = status_of(out, file)? else { return Ok(Beginning::AtStart) };
     // Of a steady solution there is nothing to continue from
     let end = match &file.case().time {
         TimeSettings::Unsteady(settings) => Some(settings.end),
@@ -109,6 +109,16 @@ pub fn beginning<const D: usize>(
         is_in_place: true,
         from: path,
     })))
+}
+
+/// The status of the run in a directory, if there is one; where it is lost and checkpoints are there, that of a run
+/// that was killed.
+fn status_of(out: &Path, file: &CaseFile) -> Result<Option<Status>, Failure> {
+    match Status::read(out) {
+        Ok(status) => Ok(Some(status)),
+        Err(_) if checkpoints(out)?.is_empty() => Ok(None),
+        Err(_) => Ok(Some(Status::lost(file.case()))),
+    }
 }
 
 /// Refuses to begin again at the start in a job that was put back into its queue too often.

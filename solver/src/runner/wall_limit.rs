@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
 use crate::case::WallTime;
-use crate::cli::exit::{Exit, Failure};
 use crate::observer::WriteTimes;
 use crate::run::{Observer, Snapshot};
 use crate::step::StopRequest;
@@ -63,15 +62,12 @@ fn margin(step: Duration, write: Option<Duration>) -> Duration {
 
 impl WallLimit {
     /// The limit that is asked for, or else that of the batch job, if there is one.
-    ///
-    /// # Errors
-    /// When what is asked for is no time.
-    pub fn new(asked: Option<&str>) -> Result<Option<Self>, Failure> {
-        let end = Self::end(asked)?;
+    #[must_use]
+    pub fn new(asked: Option<WallTime>) -> Option<Self> {
         let pace = Pace { latest: VecDeque::new(), last: Instant::now() };
         let pace = Arc::new(Mutex::new(pace));
         let (writes, has_asked) = (WriteTimes::default(), Arc::default());
-        Ok(end.map(|end| Self { end, pace, writes, has_asked }))
+        Self::end(asked).map(|end| Self { end, pace, writes, has_asked })
     }
 
     /// Whether it has asked for the end of its run, for who looks afterwards.
@@ -81,19 +77,15 @@ impl WallLimit {
     }
 
     /// When the time that is asked for is over, or else that of the batch job, if there is one.
-    ///
-    /// # Errors
-    /// When what is asked for is no time.
-    pub fn end(asked: Option<&str>) -> Result<Option<Instant>, Failure> {
-        let wrong = |reason| Failure::new(Exit::Usage, format!("--max-walltime: {reason}"));
-        let asked: Option<WallTime> = asked.map(str::parse).transpose().map_err(wrong)?;
+    #[must_use]
+    pub fn end(asked: Option<WallTime>) -> Option<Instant> {
         let end_of_job =
             || std::env::var("SLURM_JOB_END_TIME").ok().and_then(|end| end.parse::<u64>().ok());
         let left = asked.map(WallTime::duration);
         let left = left.or_else(|| end_of_job().map(|end| left_until(end, SystemTime::now())));
         // From here on the clock on the wall may be set as anybody likes
         let now = Instant::now();
-        Ok(left.and_then(|left| now.checked_add(left)))
+        left.and_then(|left| now.checked_add(left))
     }
 
     /// The same, which learns from what states take to write.

@@ -1,8 +1,7 @@
 //! `--live`: where viewers connect to a run.
 
-use crate::cli::exit::{Exit, Failure};
-use crate::cli::style::complain;
-use crate::observer::LiveServer;
+use super::failure::{Exit, Failure};
+use crate::observer::{LiveServer, print_line};
 
 /// Where viewers look first; of this machine alone.
 pub const DEFAULT_ADDRESS: &str = "127.0.0.1:8765";
@@ -23,6 +22,6 @@ pub fn start(address: &str, name: &str) -> Result<LiveServer, Failure> {
         let reason = format!("--live: cannot listen at {address}: {error}; give another port");
         Failure::new(Exit::Usage, reason)
     })?;
-    complain(&format!("live at ws://{}", server.address()));
+    print_line(&format!("live at ws://{}", server.address()));
     Ok(server)
 }

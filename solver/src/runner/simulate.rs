@@ -1,30 +1,14 @@
-//! The one place where the command line meets mesh and solver.
+//! A case is run with all who see it, and all that may ask for its end.
 
-mod signal;
-mod stop_file;
-pub mod threads;
-pub mod too_large;
-mod wall_limit;
+use std::path::PathBuf;
 
-use std::path::{Path, PathBuf};
-
-use alewife_mesh::Mesh;
-
+use super::signal::SignalWatch;
+use super::stop_file::StopFile;
+use super::threads;
+use super::wall_limit::WallLimit;
 use crate::case::Model;
 use crate::observer::{self, History, RunDirectory, Shown, WriteTimes};
 use crate::run::{self, Dimension, RunError, RunSummary, SavedState, Solve};
-use stop_file::StopFile;
-
-pub use signal::{SignalWatch, outlive_file_size_limit};
-pub use wall_limit::WallLimit;
-
-/// The mesh of a case.
-pub fn build_mesh<const D: usize>(model: &Model) -> Result<Mesh<D>, RunError>
-where
-    Dimension<D>: Solve<D>,
-{
-    run::build_mesh(model)
-}
 
 /// How a case is run into a directory.
 #[derive(Debug)]
@@ -88,9 +72,4 @@ where
         observers.push(Box::new(StopFile::new(run.directory.path())));
         run::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
     })
-}
-
-/// Starts the log: to standard error, and to `log.jsonl` of a run.
-pub fn start_log(directory: Option<&Path>, verbosity: i8) -> std::io::Result<()> {
-    observer::start_log(directory, verbosity)
 }

@@ -1,0 +1,23 @@
+//! From the plan of a run to its outcome: where it begins, what may ask for its end, what came out.
+
+mod continuation;
+mod failure;
+mod live;
+mod pipeline;
+mod plan;
+mod resume;
+mod signal;
+mod simulate;
+mod stop_file;
+pub mod threads;
+mod too_large;
+mod wall_limit;
+
+pub use failure::{Exit, Failure, listing};
+pub use live::DEFAULT_ADDRESS;
+pub use pipeline::{run, write_comparisons};
+pub use plan::{Finished, Outcome, RunPlan, Stopped};
+pub use signal::{SignalWatch, end_aborted_with, outlive_file_size_limit};
+pub use simulate::{RunInto, simulate, simulate_afresh};
+pub use too_large::too_large;
+pub use wall_limit::WallLimit;

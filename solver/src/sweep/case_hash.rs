@@ -1,0 +1,88 @@
+//! Checksums of the cases of points: which point a run directory is of, wherever it lies.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::thread;
+
+use serde_json::Value;
+
+use super::failure::PointFailure;
+use super::plan::Plan;
+use crate::case::{Case, CaseError, Sweep, collect_keys};
+
+/// Tables and keys of a case at its top that change nothing of what is computed.
+pub(super) const IRRELEVANT: [&str; 6] =
+    ["title", "description", "output", "quick", "reference", "variant"];
+/// Code of a point whose directory holds the run of another case: that of a wrong case.
+const BAD_CASE: u8 = 65;
+
+/// All keys of a case that decide what is computed, by their paths.
+pub(super) fn keys_of(case: &Value) -> BTreeMap<String, String> {
+    let mut keys = BTreeMap::new();
+    if let Value::Object(tables) = case {
+        for (name, value) in tables.iter().filter(|(name, _)| !IRRELEVANT.contains(&&***name)) {
+            collect_keys(name.clone(), value, &mut keys);
+        }
+    }
+    // A mesh is known by its checksum, wherever it lies
+    keys.remove("domain.mesh.file");
+    keys
+}
+
+/// The checksum of what is computed by a case, from its text; nothing where that is no TOML.
+fn hash_of(text: &str) -> Option<String> {
+    let keys = keys_of(&toml::from_str(text).ok()?);
+    let mut hasher = crc32fast::Hasher::new();
+    for (key, value) in keys {
+        hasher.update(format!("{key} = {value}\n").as_bytes());
+    }
+    Some(format!("crc32:{:08x}", hasher.finalize()))
+}
+
+/// The checksum of a case as its run writes it.
+fn hash_of_case(case: &Case) -> Option<String> {
+    hash_of(&case.to_toml().ok()?)
+}
+
+/// The checksums of all points of a sweep.
+///
+/// # Errors
+/// What is wrong in the case of a point.
+pub fn hashes_of(sweep: &Sweep) -> Result<Vec<String>, CaseError> {
+    let n = sweep.n_points();
+    let n_threads = thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let per_thread = n.div_ceil(n_threads).max(1);
+    let hash = |index| Ok(hash_of_case(sweep.case(index)?.case()).unwrap_or_default());
+    thread::scope(|scope| {
+        let parts = (0..n).step_by(per_thread).map(|first| first..(first + per_thread).min(n));
+        let workers: Vec<_> =
+            parts.map(|part| scope.spawn(move || part.map(hash).collect::<Vec<_>>())).collect();
+        let joined = workers.into_iter().map(thread::ScopedJoinHandle::join);
+        joined
+            .flat_map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    })
+}
+
+impl Plan {
+    /// What is wrong where the directory of a point holds the run of another case; nothing where it does not, or no
+    /// run, or the plan was written before checksums were.
+    #[must_use]
+    pub fn misplaced(&self, run: &Path, index: usize) -> Option<PointFailure> {
+        let wanted = self.cases.get(index).filter(|hash| !hash.is_empty())?;
+        let text = std::fs::read_to_string(run.join("case.toml")).ok()?;
+        let found = hash_of(&text);
+        if found.as_ref() == Some(wanted) {
+            return None;
+        }
+        let whose = match self.cases.iter().position(|hash| Some(hash) == found.as_ref()) {
+            Some(other) => format!("that of point {}", other + 1),
+            None => "of no point of this sweep".to_owned(),
+        };
+        let reason = format!(
+            "{} holds the run of another case, {whose}: put it back, or move it away and run the sweep again",
+            run.display()
+        );
+        Some(PointFailure { is_of_another_case: true, ..PointFailure::new(Some(BAD_CASE), reason) })
+    }
+}
