@@ -114,12 +114,6 @@ pub enum MeshError {
         /// Where, y (m).
         y: f64,
     },
-    /// A periodic domain could not be cut open between its bodies.
-    #[error("the periodic domain could not be cut open between the bodies: {reason}")]
-    NoCut {
-        /// What went wrong.
-        reason: &'static str,
-    },
     /// A spline crosses itself.
     #[error(
         "body \"{body}\": the spline crosses itself near ({x:.6e}, {y:.6e}); reorder its points or \

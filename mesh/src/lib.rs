@@ -13,6 +13,7 @@ mod locate;
 mod mesh;
 mod msh;
 mod number;
+mod periods;
 mod planar;
 mod quadrature;
 mod quality;
@@ -36,10 +37,10 @@ pub use mesh::{
 pub use msh::{Encoding, MshError, Place, read_msh, read_planar_msh, read_spatial_msh, write_msh};
 pub use number::whole;
 pub use planar::{
-    Closest, Cut, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline,
-    PlacedShape, Profile, SMALLEST_GAP, SecondMoments, Shape, SizeField, Spline, Station, TubeForm,
-    Wall, check_placement, check_wrapped_placement, closest, closest_features, closest_to_wall,
-    estimate_cells, generate, generate_along, on_meridian, overlap, thickness, wall_features,
+    Closest, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline, PlacedShape,
+    Profile, SMALLEST_GAP, SecondMoments, Shape, SizeField, Spline, Station, TubeForm, Wall,
+    check_placement, check_wrapped_placement, closest, closest_features, closest_to_wall,
+    estimate_cells, generate, generate_wrapped, on_meridian, overlap, thickness, wall_features,
 };
 pub use quadrature::GaussRule;
 pub use quality::{CellQuality, Quality, WorstCell};

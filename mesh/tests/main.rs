@@ -2,8 +2,8 @@
 
 mod closest;
 mod common;
-mod cut;
 mod msh;
 mod properties;
 mod sizes;
 mod tetrahedra;
+mod torus;

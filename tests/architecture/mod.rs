@@ -57,7 +57,7 @@ const FOREIGN: [(&str, &[&str]); 8] = [
     ("faer", &["solver/linear/src/algebra/", "solver/linear/src/multifrontal/"]),
     ("pulp", &["solver/flow/src/flow/", "solver/linear/src/multifrontal/"]),
     ("metis_sys", &["solver/linear/src/multifrontal/ordering/metis.rs"]),
-    ("spade", &["mesh/src/planar/generate/", "mesh/src/planar/cut/"]),
+    ("spade", &["mesh/src/planar/generate/"]),
     ("mcap", &["solver/src/observer/"]),
     ("clap", &["solver/src/cli/"]),
     ("indicatif", &["solver/src/observer/"]),

@@ -1,4 +1,4 @@
-//! Bodies that fill a doubly periodic cell: its cut, its mean velocity, and what they do in it.
+//! Bodies that fill a doubly periodic cell: its sides, its mean velocity, and what they do in it.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -55,7 +55,7 @@ fn farthest(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Straight sides where bodies leave them alone, or curves between bodies: one flow.
+/// Straight sides where bodies leave them alone, or a torus: one flow.
 #[test]
 fn velocities_do_not_depend_on_where_the_cell_is_cut() {
     let at = |by: [f64; 2]| velocities(&run(&case(&cell("steady = {}", by, ""))));
@@ -68,7 +68,7 @@ fn velocities_do_not_depend_on_where_the_cell_is_cut() {
     }
 }
 
-/// The curved cut follows the bodies, and so does the mesh: to rounding.
+/// The triangles of a torus follow the bodies: to rounding.
 #[test]
 fn swimmers_moved_by_half_a_cell_swim_alike() {
     let contact = "contact.barrier = { range = 0.1, stiffness = 500.0 }";

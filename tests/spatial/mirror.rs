@@ -107,10 +107,6 @@ impl Scene<3> for Mirrored {
     fn images(&self, _: [&Mesh<3>; 2]) -> Vec<Point<3>> {
         vec![Point::<3>::zeros()]
     }
-
-    fn domain_start(&self) -> Point<3> {
-        self.own.domain_start()
-    }
 }
 
 /// The scene of a case at time zero, with its mesh.

@@ -56,10 +56,6 @@ impl Scene<3> for Bipyramid {
     fn images(&self, _: [&Mesh<3>; 2]) -> Vec<Point<3>> {
         Vec::new()
     }
-
-    fn domain_start(&self) -> Point<3> {
-        Point::<3>::zeros()
-    }
 }
 
 /// One body that meets nothing.

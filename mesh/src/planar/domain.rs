@@ -150,6 +150,16 @@ impl Domain {
         }
     }
 
+    /// The whole periods that bring a point into the domain (m).
+    #[must_use]
+    pub fn shift_into(&self, point: Point<2>) -> Point<2> {
+        let ([min, _], periods) = (self.corners(), self.periods());
+        Point::<2>::from_fn(|axis, _| {
+            periods[axis]
+                .map_or(0.0, |length| -((point[axis] - min[axis]) / length).floor() * length)
+        })
+    }
+
     /// The vectors by which a periodic domain repeats next to itself, zero first (m).
     #[must_use]
     pub fn images(&self) -> Vec<Point<2>> {

@@ -2,7 +2,6 @@
 
 mod boundary;
 mod closest;
-mod cut;
 mod domain;
 mod gap_query;
 mod generate;
@@ -13,16 +12,16 @@ mod profile;
 mod shape;
 mod size_field;
 mod spline;
+mod torus;
 mod vector;
 
 pub use closest::{
     Closest, Wall, closest, closest_features, closest_to_wall, on_meridian, overlap, thickness,
     wall_features,
 };
-pub use cut::Cut;
 pub use domain::Domain;
 pub use gap_query::GapQuery;
-pub use generate::{generate, generate_along};
+pub use generate::{generate, generate_wrapped};
 pub use outline::{Nearest, Outline};
 pub use placement::{SMALLEST_GAP, check_placement, check_wrapped_placement};
 pub use profile::{FishForm, FlagellateForm, Profile, Station, TubeForm};

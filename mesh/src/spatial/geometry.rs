@@ -6,9 +6,9 @@ use nalgebra::{Isometry3, Matrix3, Translation3};
 
 use super::domain::Domain;
 use super::imported::Imported;
-use super::periods::Periods;
 use super::shape::{Body, Part, Shape};
 use super::surface::{Ellipsoid, Foot, Form, Revolved, SmoothSurface, Tube};
+use crate::periods::Periods;
 use crate::{Boundary, BoundaryId, BoundaryKind, MeshError, Point, Sizing};
 
 /// Steps of Newton's method onto several surfaces at once.
@@ -44,7 +44,7 @@ pub struct Geometry {
     /// Corners of a box around the fluid (m).
     pub corners: [Point<3>; 2],
     /// Lengths of the box along which it is periodic.
-    pub periods: Periods,
+    pub periods: Periods<3>,
     /// The mesh that is to be cut by the bodies, where one is given.
     pub imported: Option<Imported>,
 }

@@ -15,7 +15,6 @@ mod generate;
 mod geometry;
 mod imported;
 mod least_gap;
-mod periods;
 mod placement;
 mod sections;
 mod shape;

@@ -7,9 +7,9 @@ use super::domain::Domain;
 use super::geometry::{sides, surfaces_of};
 use super::imported::Imported;
 use super::least_gap::{Least, STARTS, least_gap};
-use super::periods::Periods;
 use super::shape::{Body, Shape};
 use super::surface::SmoothSurface;
+use crate::periods::Periods;
 use crate::{MeshError, Point, SMALLEST_GAP};
 
 /// Whether bodies can be meshed in a domain: sizes, names, inside, apart.
@@ -152,7 +152,7 @@ fn check_apart_from_images(
     surface: &SmoothSurface,
     other: &Body,
     facing: &SmoothSurface,
-    periods: &Periods,
+    periods: &Periods<3>,
 ) -> Result<(), MeshError> {
     let is_own = body.name == other.name;
     let nearest = periods.beside(facing.origin(), surface.origin()) - facing.origin();

@@ -4,12 +4,13 @@
 //! outer loop follows the axis and climbs over every body on it by the upper half of its outline.
 
 use std::f64::consts::FRAC_PI_2;
-use std::sync::Arc;
 
-use crate::planar::cut::{CopyOf, Line, Path, PathPoint};
+use crate::number::whole;
+use crate::planar::lattice::lattice;
+use crate::planar::torus::Torus;
 use crate::planar::vector::cross;
 use crate::quadrature::integrate;
-use crate::{Boundary, BoundaryId, BoundaryKind, Cut, Domain, Outline, PlacedShape, Point};
+use crate::{Boundary, BoundaryId, BoundaryKind, Domain, Outline, PlacedShape, Point};
 
 /// A smooth piece of the boundary with a parameter in [0, 1] in the direction of travel.
 #[derive(Debug, Clone)]
@@ -36,8 +37,15 @@ pub enum Curve {
         /// Whether it is travelled clockwise.
         reversed: bool,
     },
-    /// A line through the fluid, whose edges are straight.
-    Path(Arc<Path>),
+}
+
+/// What a periodic side copies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CopyOf {
+    /// Index of the original.
+    pub original: usize,
+    /// Whole periods from it to the copy (m).
+    pub shift: Point<2>,
 }
 
 /// How the boundary runs at one of its points.
@@ -62,8 +70,8 @@ pub struct BoundaryLoops {
     pub boundaries: Vec<Boundary>,
     /// The vectors by which what it bounds repeats next to itself, zero first (m).
     pub images: Vec<Point<2>>,
-    /// Whether periodic sides are those of the domain, not of a [`Cut`].
-    pub has_sides: bool,
+    /// The box where it closes on itself and has no periodic sides.
+    pub torus: Torus,
 }
 
 impl BoundaryLoops {
@@ -99,13 +107,13 @@ impl BoundaryLoops {
                     pieces.push(quarter_of(outlines.len() - 1, quarter, false, 0));
                 }
                 let x = [center - radius, center + radius];
-                along_axis(&mut pieces, x, 1, first_body, &outlines[..bodies.len()]);
+                along_axis(&mut pieces, x, 1, first_body, &outlines[..bodies.len()], false);
             }
             Domain::Cylinder { x, radius, periodic_x } => {
                 let corner = |x: f64, y: f64| Point::<2>::new(x, y);
                 let length = corner(x[1] - x[0], 0.0);
                 pieces.push(segment(corner(x[0], *radius), corner(x[0], 0.0), 0, None));
-                along_axis(&mut pieces, *x, 3, first_body, &outlines[..bodies.len()]);
+                along_axis(&mut pieces, *x, 3, first_body, &outlines[..bodies.len()], false);
                 let copy = periodic_x.then_some(CopyOf { original: 0, shift: length });
                 pieces.push(segment(corner(x[1], 0.0), corner(x[1], *radius), 1, copy));
                 pieces.push(segment(corner(x[1], *radius), corner(x[0], *radius), 2, None));
@@ -114,29 +122,40 @@ impl BoundaryLoops {
         if !domain.is_axisymmetric() {
             around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
         }
-        Self { pieces, loops, outlines, boundaries, images: domain.images(), has_sides: true }
+        Self {
+            pieces,
+            loops,
+            outlines,
+            boundaries,
+            images: domain.images(),
+            torus: Torus::default(),
+        }
     }
 
-    /// Loops around a periodic domain cut open and around its bodies, whose outlines are given.
-    pub fn along(
-        cut: &Cut,
-        domain: &Domain,
-        bodies: &[PlacedShape],
-        outlines: Vec<Outline>,
-    ) -> Self {
-        let mut pieces: Vec<BoundaryPiece> = Vec::new();
-        for stretch in cut.stretches() {
-            let curve = match &stretch.line {
-                Line::Straight(from, to) => Curve::Segment(*from, *to),
-                Line::Along(path) => Curve::Path(Arc::clone(path)),
-            };
-            pieces.push(BoundaryPiece { curve, boundary: stretch.side, copy_of: stretch.copy_of });
-        }
-        let mut loops = vec![0];
+    /// Loops around bodies in a periodic domain that closes on itself, whose outlines are given, and its
+    /// walls and axis, of which each is a loop by itself.
+    pub fn on_torus(domain: &Domain, bodies: &[PlacedShape], outlines: Vec<Outline>) -> Self {
         let first_body = domain.sides().len();
-        around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
-        let (boundaries, images) = (boundaries(domain, bodies), cut.images().to_vec());
-        Self { pieces, loops, outlines, boundaries, images, has_sides: false }
+        // Two bodies of half a period may face each other two periods away
+        let reach = outlines.iter().map(Outline::reach).fold(0.0, f64::max);
+        let shortest = domain.periods().into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let images = lattice(domain.periods(), 1 + whole(2.0 * reach / shortest));
+        let torus = Torus::new(domain);
+        let mut pieces = Vec::new();
+        let mut loops = Vec::new();
+        if let Domain::Cylinder { x, radius, .. } = domain {
+            let [left, right] = x.map(|x| Point::<2>::new(x, *radius));
+            pieces.push(segment(right, left, 2, None));
+            along_axis(&mut pieces, *x, 3, first_body, &outlines, true);
+            loops.extend([0, 1]);
+        } else {
+            pieces = Self::new(domain, &[], Vec::new()).pieces;
+            pieces.retain(|wall| !domain.is_periodic(wall.boundary.index()));
+            loops.extend(0..pieces.len());
+            around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
+        }
+        let boundaries = boundaries(domain, bodies);
+        Self { pieces, loops, outlines, boundaries, images, torus }
     }
 
     /// Point (m), first and second derivative of a piece.
@@ -153,10 +172,6 @@ impl BoundaryLoops {
                 let [point, first, second] =
                     self.outlines[*outline].evaluate(*quarter, 1.0 - parameter);
                 [point, -first, second]
-            }
-            Curve::Path(path) => {
-                let PathPoint { point, direction, .. } = path.at(parameter);
-                [point, direction * path.length(), Point::<2>::zeros()]
             }
         }
     }
@@ -196,17 +211,13 @@ impl BoundaryLoops {
         let [_, first, second] = self.evaluate(piece, parameter);
         let speed = first.norm();
         let bend = cross(first, second).abs();
-        if let Curve::Path(path) = &self.pieces[piece].curve {
-            let PathPoint { direction, radius, .. } = path.at(parameter);
-            return Frame { normal: Point::<2>::new(-direction.y, direction.x), radius };
-        }
         let normal = Point::<2>::new(-first.y, first.x) / speed;
         Frame { normal, radius: speed.powi(3) / bend }
     }
 
     /// Whether the edges of a piece are straight.
     pub fn is_straight(&self, piece: usize) -> bool {
-        matches!(self.pieces[piece].curve, Curve::Segment(..) | Curve::Path(_))
+        matches!(self.pieces[piece].curve, Curve::Segment(..))
     }
 
     /// Whether a piece is one of a periodic pair.
@@ -223,7 +234,6 @@ impl BoundaryLoops {
             Curve::Quarter { outline, .. } => {
                 self.outlines[*outline].circle_radius().map(|radius| radius * FRAC_PI_2)
             }
-            Curve::Path(path) => Some(path.length()),
         }
     }
 }
@@ -278,24 +288,32 @@ pub fn quarter_of(
     BoundaryPiece { curve, boundary: BoundaryId::new(boundary), copy_of: None }
 }
 
-/// The axis from left to right, interrupted by the upper halves of the bodies in order of x.
+/// The axis from left to right, interrupted by the upper halves of the bodies in order of x; one that
+/// closes on itself begins where the first body does.
 fn along_axis(
     pieces: &mut Vec<BoundaryPiece>,
     x: [f64; 2],
     axis: usize,
     first_body: usize,
     bodies: &[Outline],
+    closes: bool,
 ) {
     let pole =
         |body: usize, quarter| Point::<2>::new(bodies[body].evaluate(quarter, 0.0)[0].x, 0.0);
     let mut order: Vec<usize> = (0..bodies.len()).collect();
     order.sort_by(|a, b| pole(*a, 2).x.total_cmp(&pole(*b, 2).x));
-    let mut from = Point::<2>::new(x[0], 0.0);
+    let [mut from, mut end] = x.map(|x| Point::<2>::new(x, 0.0));
+    if let (true, Some(first)) = (closes, order.first()) {
+        end += pole(*first, 2) - from;
+        from = pole(*first, 2);
+    }
     for body in order {
-        pieces.push(segment(from, pole(body, 2), axis, None));
+        if from != pole(body, 2) {
+            pieces.push(segment(from, pole(body, 2), axis, None));
+        }
         pieces.push(quarter_of(body, 1, true, first_body + body));
         pieces.push(quarter_of(body, 0, true, first_body + body));
         from = pole(body, 0);
     }
-    pieces.push(segment(from, Point::<2>::new(x[1], 0.0), axis, None));
+    pieces.push(segment(from, end, axis, None));
 }

@@ -1,8 +1,7 @@
 //! Boundary edges: every piece of the border cut by the size field, evenly in arc length over h.
 
 use crate::number::{index_u32, whole};
-use crate::planar::boundary::BoundaryLoops;
-use crate::planar::cut::CopyOf;
+use crate::planar::boundary::{BoundaryLoops, CopyOf};
 use crate::{MeshError, Point, SizeField};
 
 /// Largest number of boundary edges.

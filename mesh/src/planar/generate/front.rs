@@ -6,6 +6,7 @@ use std::f64::consts::FRAC_PI_3;
 use super::edges::BoundaryEdges;
 use super::point_tree::PointTree;
 use crate::number::index_u32;
+use crate::planar::torus::Torus;
 use crate::planar::vector::cross;
 use crate::{MeshError, Point, SizeField, interrupt};
 
@@ -37,15 +38,17 @@ pub struct SizedPoints {
 pub fn advance_front(
     boundary: &BoundaryEdges,
     sizes: &SizeField,
+    torus: Torus,
 ) -> Result<SizedPoints, MeshError> {
     let mut front = Front {
-        guard: BoundaryGuard::new(boundary),
-        tree: PointTree::new(&boundary.points),
+        guard: BoundaryGuard::new(boundary, torus),
+        tree: PointTree::new(&boundary.points, torus),
         laid: SizedPoints::default(),
         waiting: VecDeque::new(),
     };
     for edge in &boundary.edges {
         let [a, b] = edge.vertices.map(|v| boundary.points[v as usize]);
+        let b = torus.beside(b, a);
         let (middle, length) = ((a + b) * 0.5, (b - a).norm());
         let along = (b - a) / length;
         let inward = Point::<2>::new(-along.y, along.x);
@@ -98,6 +101,7 @@ struct Front<'a> {
 impl Front<'_> {
     /// Lays a point if nothing is too near.
     fn try_insert(&mut self, place: Point<2>, h: f64, direction: Point<2>) {
+        let place = self.guard.torus.inside(place);
         if self.tree.any_within(place, CLEARANCE * h, |_| true) || !self.guard.is_clear(place, h) {
             return;
         }
@@ -111,19 +115,20 @@ impl Front<'_> {
 /// The boundary edges, to keep points inside and off them.
 struct BoundaryGuard<'a> {
     boundary: &'a BoundaryEdges,
+    torus: Torus,
     tree: PointTree,
     /// Edges that end and start at each vertex.
     around: Vec<[u32; 2]>,
 }
 
 impl<'a> BoundaryGuard<'a> {
-    fn new(boundary: &'a BoundaryEdges) -> Self {
+    fn new(boundary: &'a BoundaryEdges, torus: Torus) -> Self {
         let mut around = vec![[0; 2]; boundary.points.len()];
         for (i, edge) in boundary.edges.iter().enumerate() {
             around[edge.vertices[1] as usize][0] = index_u32(i);
             around[edge.vertices[0] as usize][1] = index_u32(i);
         }
-        Self { boundary, tree: PointTree::new(&boundary.points), around }
+        Self { boundary, torus, tree: PointTree::new(&boundary.points, torus), around }
     }
 
     /// Whether a point about h from a point inside is itself inside and off the boundary edges.
@@ -135,7 +140,8 @@ impl<'a> BoundaryGuard<'a> {
                 let [a, b] = self.boundary.edges[edge as usize]
                     .vertices
                     .map(|v| self.boundary.points[v as usize]);
-                let along = b - a;
+                let a = self.torus.beside(a, place);
+                let along = self.torus.beside(b, a) - a;
                 let t = ((place - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
                 let gap = (place - a - along * t).norm();
                 let side = cross(along, place - a) / along.norm();

@@ -95,7 +95,8 @@ fn fit_edges(mesh: &mut Triangulation) {
                 continue;
             }
             let [a, b] = [0, 1].map(|i| mesh.triangles[t][(s + i) % 3]);
-            let [p, q] = [a, b].map(|v| mesh.points[v as usize]);
+            let p = mesh.points[a as usize];
+            let q = mesh.beside(b, p);
             let size = 0.5 * (mesh.sizes[a as usize] + mesh.sizes[b as usize]);
             let length = (q - p).norm() / size;
             if length < SHORT {
@@ -130,8 +131,7 @@ fn split_boundary(mesh: &mut Triangulation, border: &BoundaryLoops, is_curved: b
         if border.is_periodic(piece) {
             continue;
         }
-        let corners = mesh.corners(t);
-        let [a, b, c] = [0, 1, 2].map(|i| corners[(s + i) % 3]);
+        let [a, b, c] = mesh.corners_from((t, s));
         let is_longest = (b - a).norm() > (c - b).norm().max((a - c).norm());
         let middle = border.cut(piece, edge.parameters[0], edge.parameters[1], 0.5);
         let place = border.point(piece, middle);

@@ -5,8 +5,7 @@
 
 use std::collections::HashMap;
 
-use crate::planar::boundary::{BoundaryLoops, BoundaryPiece, Curve, quarter_of, segment};
-use crate::planar::cut::CopyOf;
+use crate::planar::boundary::{BoundaryLoops, BoundaryPiece, CopyOf, Curve, quarter_of, segment};
 use crate::{
     Boundary, BoundaryId, BoundaryKind, CellId, Domain, Facet, Mesh, NodeId, Outline, PeriodicPair,
     PlacedShape, Point, Sizing, Topology,
@@ -70,6 +69,14 @@ impl Mirror {
             return None;
         }
         let n_sides = domain.sides().len();
+        // The half ends at the side that faces its own image
+        let [low, high] = domain.corners().map(|corner| corner[axis]);
+        let is_across = |outline: &Outline| {
+            samples(outline).any(|place| place[axis] <= low || place[axis] >= high)
+        };
+        if is_periodic && outlines.iter().any(is_across) {
+            return None;
+        }
         for outline in outlines {
             let image = outlines.iter().position(|other| mirror.takes(outline, other, near))?;
             let is_own = std::ptr::eq(outline, &outlines[image]);
@@ -150,7 +157,6 @@ impl Mirror {
 
     /// Loops around the half that is meshed, the line of symmetry as the last boundary.
     pub fn half(&self, domain: &Domain, border: &BoundaryLoops) -> BoundaryLoops {
-        let line = border.boundaries.len();
         let n_sides = domain.sides().len();
         let mut pieces: Vec<BoundaryPiece> = Vec::new();
         let [start, end] = match domain {
@@ -165,8 +171,15 @@ impl Mirror {
                 [pole((first + 2) % 4), pole(first)]
             }
         };
-        self.along_line(&mut pieces, &border.outlines, n_sides, line, [start, end]);
+        let torus = border.torus.along(1 - self.axis);
         let mut loops = vec![0];
+        if torus.is_closed() {
+            // The side beyond and the line are left, each a loop by itself
+            pieces.retain(|piece| piece.boundary.index() == 2 * self.axis + 1);
+            loops.push(pieces.len());
+        }
+        let ends = [start, end];
+        self.along_line(&mut pieces, &border.outlines, n_sides, ends, torus.is_closed());
         for (body, role) in self.roles.iter().enumerate() {
             if *role == Role::Kept {
                 loops.push(pieces.len());
@@ -177,7 +190,7 @@ impl Mirror {
         }
         let mut boundaries = border.boundaries.clone();
         boundaries.push(Boundary { name: String::new(), kind: BoundaryKind::Side });
-        BoundaryLoops { pieces, loops, boundaries, ..border.clone() }
+        BoundaryLoops { pieces, loops, boundaries, torus, ..border.clone() }
     }
 
     /// The sides of a box beyond the line; where the line starts and ends.
@@ -209,15 +222,17 @@ impl Mirror {
         }
     }
 
-    /// The line of symmetry, interrupted by the halves of the bodies on it.
+    /// The line of symmetry, interrupted by the halves of the bodies on it; one that closes on itself begins
+    /// where the first of them does.
     fn along_line(
         &self,
         pieces: &mut Vec<BoundaryPiece>,
         outlines: &[Outline],
         n_sides: usize,
-        line: usize,
         [start, end]: [Point<2>; 2],
+        closes: bool,
     ) {
+        let line = self.image_of.len();
         let on_line = |mut place: Point<2>| {
             place[self.axis] = self.at;
             place
@@ -227,25 +242,31 @@ impl Mirror {
         let mut bodies: Vec<(f64, usize, usize)> = Vec::new();
         for (body, role) in self.roles.iter().enumerate() {
             if let Role::OnLine(entry) = role {
-                bodies.push(((pole(body, *entry) - start).norm(), body, *entry));
+                bodies.push(((pole(body, *entry) - start).dot(&(end - start)), body, *entry));
             }
         }
         bodies.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut made = Vec::new();
-        let mut from = on_line(start);
+        let (mut from, mut to) = (on_line(start), on_line(end));
+        if let (true, Some(&(_, body, entry))) = (closes, bodies.first()) {
+            to += pole(body, entry) - from;
+            from = pole(body, entry);
+        }
         for (_, body, entry) in bodies {
-            made.push(segment(from, pole(body, entry), line, None));
+            if from != pole(body, entry) {
+                made.push(segment(from, pole(body, entry), line, None));
+            }
             let boundary = n_sides + body;
             made.push(quarter_of(body, (entry + 3) % 4, true, boundary));
             made.push(quarter_of(body, (entry + 2) % 4, true, boundary));
             from = pole(body, entry + 2);
         }
-        made.push(segment(from, on_line(end), line, None));
+        made.push(segment(from, to, line, None));
         // Behind the side at whose end the line starts: the first of a box cut along y = const,
         // else the last
         let first_end = match &pieces[0].curve {
             Curve::Segment(_, end) => Some(*end),
-            Curve::Quarter { .. } | Curve::Path(_) => None,
+            Curve::Quarter { .. } => None,
         };
         let place = if first_end == Some(start) { 1 } else { pieces.len() };
         pieces.splice(place..place, made);

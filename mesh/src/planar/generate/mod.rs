@@ -3,11 +3,13 @@
 //! Boundary as curves, size field, boundary edges, interior points by a front, constrained Delaunay
 //! triangulation, improvement, quadratic nodes, numbering. Nothing is random: equal input, equal bits.
 
+mod copies;
 mod delaunay;
 mod edges;
 mod front;
 mod improve;
 mod mirror;
+mod opened;
 mod order;
 mod point_tree;
 mod quadratic;
@@ -20,7 +22,7 @@ use mirror::Mirror;
 
 use crate::planar::boundary::BoundaryLoops;
 use crate::planar::placement::{place, place_wrapped};
-use crate::{Cut, Domain, Mesh, MeshError, PlacedShape, Quality, SizeField, Sizing, interrupt};
+use crate::{Domain, Mesh, MeshError, Outline, PlacedShape, Quality, SizeField, Sizing, interrupt};
 
 /// A mesh made by reflection is taken unless an angle is below this (degrees), as where the line of
 /// symmetry passes a narrow place.
@@ -65,13 +67,53 @@ pub fn generate(
     sizing: &Sizing,
 ) -> Result<Mesh<2>, MeshError> {
     sizing.check(domain.sides())?;
-    let outlines = place(domain, bodies)?;
-    let border = BoundaryLoops::new(domain, bodies, outlines);
-    let sizes = SizeField::from_border(domain, bodies, sizing, &border)?;
+    let border = BoundaryLoops::new(domain, bodies, place(domain, bodies)?);
+    generate_within(&border, domain, bodies, sizing)
+}
+
+/// The same where bodies may lie across the periodic sides of a domain: where one does, or nearly so, this
+/// is a triangulation of the torus that the domain is.
+///
+/// The sides of a periodic pair are then the sides of triangles along which it is cut open to be shown, with
+/// bodies whole and elsewhere near the sides of the domain.
+///
+/// # Errors
+/// What [`check_wrapped_placement`](crate::check_wrapped_placement) and [`Sizing::check`] refuse,
+/// [`MeshError::TooManyCells`], [`MeshError::Boundary`] and [`MeshError::FoldedCell`].
+pub fn generate_wrapped(
+    domain: &Domain,
+    bodies: &[PlacedShape],
+    sizing: &Sizing,
+) -> Result<Mesh<2>, MeshError> {
+    sizing.check(domain.sides())?;
+    let outlines = place_wrapped(domain, bodies)?;
+    let sides = || (0..domain.sides().len()).filter(|side| domain.is_periodic(*side));
+    // Straight sides would ask for smaller cells between them and a body than there are around it
+    let is_clear = |(outline, body): (&Outline, &PlacedShape)| {
+        let room = outline.reach() + body.size.unwrap_or(sizing.surface);
+        sides().all(|side| domain.side_gap(side, outline.center()) > room)
+    };
+    let border = if outlines.iter().zip(bodies).all(is_clear) {
+        BoundaryLoops::new(domain, bodies, outlines)
+    } else {
+        BoundaryLoops::on_torus(domain, bodies, outlines)
+    };
+    generate_within(&border, domain, bodies, sizing)
+}
+
+/// Mesh of what lies on the left of the border of a domain with bodies, by its half where it is
+/// mirror-symmetric.
+fn generate_within(
+    border: &BoundaryLoops,
+    domain: &Domain,
+    bodies: &[PlacedShape],
+    sizing: &Sizing,
+) -> Result<Mesh<2>, MeshError> {
+    let sizes = SizeField::from_border(domain, bodies, sizing, border)?;
     let outlines = &border.outlines[..bodies.len()];
     let mirror = Mirror::find(domain, outlines, sizing).filter(|m| m.keeps_sizes_of(bodies));
     if let Some(mirror) = mirror
-        && let Ok(half) = fill(&mirror.half(domain, &border), &sizes, sizing.curved)
+        && let Ok(half) = fill(&mirror.half(domain, border), &sizes, sizing.curved)
     {
         let mesh = mirror.whole(half);
         let quality = Quality::of(&mesh);
@@ -79,36 +121,14 @@ pub fn generate(
             return Ok(order::renumber(&mesh));
         }
     }
-    fill(&border, &sizes, sizing.curved).map(|mesh| order::renumber(&mesh))
-}
-
-/// Mesh of the fluid in a periodic box around bodies that leave no straight strip free, cut open
-/// along `cut`, with the bodies moved by its [`Cut::shifts`].
-///
-/// Boundaries are those of [`generate`]; the sides of a periodic pair are curved, and node by node
-/// apart by whole periods.
-///
-/// # Errors
-/// What [`check_placement`](crate::check_placement) and [`Sizing::check`] refuse, [`MeshError::TooManyCells`],
-/// [`MeshError::Boundary`] and [`MeshError::FoldedCell`].
-pub fn generate_along(
-    cut: &Cut,
-    domain: &Domain,
-    bodies: &[PlacedShape],
-    sizing: &Sizing,
-) -> Result<Mesh<2>, MeshError> {
-    sizing.check(domain.sides())?;
-    let outlines = place_wrapped(domain, bodies)?;
-    let border = BoundaryLoops::along(cut, domain, bodies, outlines);
-    let sizes = SizeField::from_border(domain, bodies, sizing, &border)?;
-    fill(&border, &sizes, sizing.curved).map(|mesh| order::renumber(&mesh))
+    fill(border, &sizes, sizing.curved).map(|mesh| order::renumber(&mesh))
 }
 
 /// Mesh of what lies on the left of a border.
 fn fill(border: &BoundaryLoops, sizes: &SizeField, is_curved: bool) -> Result<Mesh<2>, MeshError> {
     let boundary = BoundaryEdges::new(border, sizes)?;
-    let interior = front::advance_front(&boundary, sizes)?;
-    let mut triangles = delaunay::triangulate(&boundary, &interior, sizes)?;
+    let interior = front::advance_front(&boundary, sizes, border.torus)?;
+    let mut triangles = delaunay::triangulate(&boundary, &interior, sizes, border.torus)?;
     interrupt::check()?;
     improve::improve(&mut triangles, border, is_curved);
     interrupt::check()?;

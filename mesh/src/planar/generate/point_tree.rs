@@ -2,6 +2,7 @@
 
 use crate::Point;
 use crate::number::index_u32;
+use crate::planar::torus::Torus;
 
 /// Points in one leaf before it is split.
 const LEAF: usize = 12;
@@ -13,6 +14,9 @@ pub struct PointTree {
     points: Vec<Point<2>>,
     center: Point<2>,
     half: f64,
+    torus: Torus,
+    /// To all images of a point that may be near one in the square, itself first (m).
+    shifts: Vec<Point<2>>,
 }
 
 #[derive(Debug, Clone)]
@@ -30,12 +34,16 @@ struct Square {
 }
 
 impl PointTree {
-    /// Empty tree over the square around all `points`, which are then inserted.
-    pub fn new(points: &[Point<2>]) -> Self {
+    /// Empty tree over the square around all `points`, or around the box of a torus; the points are then
+    /// inserted.
+    pub fn new(points: &[Point<2>], torus: Torus) -> Self {
         let (mut min, mut max) = (points[0], points[0]);
-        for point in points {
-            min = min.inf(point);
-            max = max.sup(point);
+        if torus.is_closed() {
+            [min, max] = torus.corners();
+        }
+        for point in points.iter().map(|point| torus.inside(*point)) {
+            min = min.inf(&point);
+            max = max.sup(&point);
         }
         let half = 0.5 * (max - min).max();
         let mut tree = Self {
@@ -43,6 +51,8 @@ impl PointTree {
             points: Vec::new(),
             center: (min + max) * 0.5,
             half,
+            torus,
+            shifts: torus.periods().shifts(),
         };
         for point in points {
             tree.insert(*point);
@@ -53,6 +63,7 @@ impl PointTree {
     /// Adds a point; its index is the number of points before it.
     pub fn insert(&mut self, point: Point<2>) {
         let index = index_u32(self.points.len());
+        let point = self.torus.inside(point);
         self.points.push(point);
         let (mut node, mut center, mut half) = (0, self.center, self.half);
         let mut depth = 0;
@@ -80,7 +91,7 @@ impl PointTree {
         self.nodes.extend(parts.map(Node::Leaf));
     }
 
-    /// Calls `visit` with the points within a radius until it returns true; whether it did.
+    /// Calls `visit` with the points of which an image is within a radius until it returns true; whether it did.
     pub fn any_within(
         &self,
         point: Point<2>,
@@ -88,7 +99,8 @@ impl PointTree {
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
         let root = Square { node: 0, center: self.center, half: self.half };
-        self.any_in(&root, point, radius, &mut visit)
+        let point = self.torus.inside(point);
+        self.shifts.iter().any(|shift| self.any_in(&root, point + shift, radius, &mut visit))
     }
 
     fn any_in(

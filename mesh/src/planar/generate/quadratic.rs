@@ -1,6 +1,7 @@
 //! From triangles to the mesh: one node per edge, on the exact curve along the boundary.
 
 use super::edges::EdgePair;
+use super::opened::Opened;
 use super::triangulation::{Triangulation, WALL};
 use crate::mesh::jacobian_coefficients;
 use crate::planar::boundary::BoundaryLoops;
@@ -16,15 +17,12 @@ pub fn finish(
     periodic: &[EdgePair],
     is_curved: bool,
 ) -> Result<Mesh<2>, MeshError> {
-    let n_vertices = triangles.points.len();
+    let opened = Opened::new(&triangles, border);
+    let mut nodes = opened.points.clone();
+    let n_vertices = nodes.len();
     let n_cells = triangles.triangles.len();
-    let mut nodes = triangles.points.clone();
     let unset = NodeId::from(u32::MAX);
-    let mut cells = Vec::with_capacity(Simplex::<2>::N_NODES * n_cells);
-    for corners in &triangles.triangles {
-        cells.extend(corners.map(NodeId::from));
-        cells.resize(cells.len() + Simplex::<2>::N_NODES - 3, unset);
-    }
+    let mut cells = with_inner_nodes(&opened.corners, unset);
     // Where an inner node of a side stands in `cells`
     let slot = |cell: usize, side: usize| {
         Simplex::<2>::N_NODES * cell + Simplex::<2>::edge_nodes(side).start
@@ -32,27 +30,32 @@ pub fn finish(
     let mut curved = vec![false; n_cells];
     let no_facet = Facet { cell: CellId::default(), side: 0, boundary: BoundaryId::default() };
     let mut facets = vec![no_facet; triangles.edges.len()];
+    let mut cut_open = opened.pairs();
     for cell in 0..n_cells {
         for side in 0..3 {
             if cells[slot(cell, side)] != unset {
                 continue;
             }
-            let [a, b] = Simplex::<2>::EDGES[side]
-                .map(|local| triangles.points[triangles.triangles[cell][local] as usize]);
+            let [a, b] =
+                Simplex::<2>::EDGES[side].map(|local| nodes[opened.corners[cell][local] as usize]);
             let mut middle = (a + b) * 0.5;
             let node = NodeId::new(nodes.len());
             cells[slot(cell, side)] = node;
             if let Some((other, other_side)) = triangles.behind((cell, side)) {
-                cells[slot(other, other_side)] = node;
+                let behind = &mut cells[slot(other, other_side)];
+                match opened.side((cell, side), (other, other_side)) {
+                    None => *behind = node,
+                    Some(boundary) => {
+                        facets.push(facet(cell, side, boundary));
+                        let pair = PeriodicPair { copy: node, original: *behind };
+                        cut_open.extend((*behind != unset).then_some(pair));
+                    }
+                }
             } else {
                 let index = (triangles.across[cell][side] & !WALL) as usize;
                 let edge = triangles.edges[index];
                 let piece = edge.piece as usize;
-                facets[index] = Facet {
-                    cell: CellId::new(cell),
-                    side: u8::try_from(side).expect("a triangle has three sides"),
-                    boundary: border.pieces[piece].boundary,
-                };
+                facets[index] = facet(cell, side, border.pieces[piece].boundary);
                 if is_curved && !border.is_straight(piece) {
                     let [from, to] = edge.parameters;
                     middle = border.point(piece, border.cut(piece, from, to, 0.5));
@@ -71,9 +74,26 @@ pub fn finish(
         periodic: Vec::new(),
     };
     let mut mesh = Mesh::new(nodes, topology);
-    mesh.topology_mut().periodic = pair_nodes(&mesh, &triangles, periodic);
+    cut_open.extend(pair_nodes(&mesh, &triangles, periodic));
+    cut_open.sort_unstable();
+    mesh.topology_mut().periodic = cut_open;
     check_curved(&mesh)?;
     Ok(mesh)
+}
+
+/// Nodes of all cells, the inner ones not set.
+fn with_inner_nodes(corners: &[[u32; 3]], unset: NodeId) -> Vec<NodeId> {
+    let mut cells = Vec::with_capacity(Simplex::<2>::N_NODES * corners.len());
+    for corners in corners {
+        cells.extend(corners.map(NodeId::from));
+        cells.resize(cells.len() + Simplex::<2>::N_NODES - 3, unset);
+    }
+    cells
+}
+
+fn facet(cell: usize, side: usize, boundary: BoundaryId) -> Facet {
+    let side = u8::try_from(side).expect("a triangle has three sides");
+    Facet { cell: CellId::new(cell), side, boundary }
 }
 
 /// Whether no curved cell is folded.
@@ -94,7 +114,7 @@ fn check_curved(mesh: &Mesh<2>) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// Periodic pairs of nodes, chains resolved, sorted by copy.
+/// Periodic pairs of nodes of straight sides, chains resolved, sorted by copy.
 fn pair_nodes(
     mesh: &Mesh<2>,
     triangles: &Triangulation,

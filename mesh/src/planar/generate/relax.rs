@@ -69,7 +69,9 @@ fn ring(mesh: &Triangulation, star: &[Corner]) -> Vec<[Point<2>; 2]> {
     star.iter()
         .map(|(t, local)| {
             let corners = mesh.triangles[*t];
-            [1, 2].map(|i| mesh.points[corners[(local + i) % 3] as usize])
+            [1, 2].map(|i| {
+                mesh.beside(corners[(local + i) % 3], mesh.points[corners[*local] as usize])
+            })
         })
         .collect()
 }

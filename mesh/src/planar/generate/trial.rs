@@ -98,7 +98,8 @@ fn apply(mesh: &mut Triangulation, change: Change) -> bool {
     let [a, b] = [0, 1].map(|i| mesh.triangles[t][(s + i) % 3]);
     let center = match change {
         Change::Split(corner) => {
-            let middle = (mesh.points[a as usize] + mesh.points[b as usize]) * 0.5;
+            let from = mesh.points[a as usize];
+            let middle = (from + mesh.beside(b, from)) * 0.5;
             mesh.split(corner, middle, 0.0)
         }
         Change::Merge(corner) => {

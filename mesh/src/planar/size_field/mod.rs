@@ -11,6 +11,7 @@ use tree::SizeTree;
 
 use crate::planar::boundary::BoundaryLoops;
 use crate::planar::placement::place;
+use crate::planar::torus::Torus;
 use crate::{Domain, MeshError, PlacedShape, Point, SizeBox, Sizing};
 
 /// The wanted cell size h(x) of a domain with its bodies.
@@ -22,6 +23,8 @@ pub struct SizeField {
     growth: f64,
     size: f64,
     boxes: Vec<SizeBox>,
+    /// Where it is periodic.
+    torus: Torus,
 }
 
 impl SizeField {
@@ -50,11 +53,9 @@ impl SizeField {
         Ok(Self {
             tree: SizeTree::new(sources),
             growth: sizing.growth,
-            size: sizing.size,
-            boxes: if border.has_sides {
-                sizing.boxes.clone()
-            } else {
-                // A cell whose sides are curved may lie in the images of a box
+            size: sizing.size.min(border.torus.largest_size()),
+            torus: border.torus,
+            boxes: if border.torus.is_closed() {
                 let moved = |one: &SizeBox, shift: &Point<2>| SizeBox {
                     min: one.min + shift,
                     max: one.max + shift,
@@ -62,6 +63,8 @@ impl SizeField {
                 };
                 let images = border.images.iter();
                 images.flat_map(|shift| sizing.boxes.iter().map(|b| moved(b, shift))).collect()
+            } else {
+                sizing.boxes.clone()
             },
         })
     }
@@ -69,6 +72,7 @@ impl SizeField {
     /// Wanted edge length at a point (m).
     #[must_use]
     pub fn at(&self, point: Point<2>) -> f64 {
+        let point = self.torus.inside(point);
         self.tree.envelope(point, self.growth, self.limit(point), 0.0)
     }
 
@@ -76,6 +80,7 @@ impl SizeField {
     pub(crate) fn at_from(&self, point: Point<2>, other: Point<2>, size: f64) -> f64 {
         // The field grows by at most this much from one point to the other
         let bound = size + self.growth * (point - other).norm();
+        let point = self.torus.inside(point);
         self.tree.envelope(point, self.growth, self.limit(point).min(bound), 1e-3)
     }
 

@@ -136,7 +136,6 @@ impl<'a> Surfaces<'a> {
     fn halvings(&self, piece: usize) -> u32 {
         match self.border.pieces[piece].curve {
             Curve::Segment(..) => 2,
-            Curve::Path(_) => 5,
             Curve::Quarter { outline, .. } if self.border.outlines[outline].is_ellipse() => 4,
             Curve::Quarter { .. } => 8,
         }
@@ -152,11 +151,10 @@ impl<'a> Surfaces<'a> {
             BoundaryKind::Body(body) => {
                 let walls = (0..self.domain.sides().len()).map(|side| {
                     let gap = self.domain.side_gap(side, point);
-                    // A periodic side is no surface: one layer up to it is enough. A cut is itself as
-                    // fine as its distance to the bodies
-                    match (self.domain.is_periodic(side), self.border.has_sides) {
-                        (true, true) => gap,
-                        (true, false) => f64::INFINITY,
+                    // A periodic side is no surface: one layer up to it is enough. A torus has none
+                    match (self.domain.is_periodic(side), self.border.torus.is_closed()) {
+                        (true, false) => gap,
+                        (true, true) => f64::INFINITY,
                         (false, _) => gap / layers,
                     }
                 });

@@ -58,7 +58,7 @@ fn generate_for_future_poses<const D: usize>(
     moving: &MovingMesh<D>,
     shapes: &BodyShapes,
 ) -> Option<NewMesh<D>> {
-    // In the plane a periodic box is cut open between the bodies, where they are at present
+    // In the plane a mesh is a small part of a step, and is made where bodies are at present
     if D == 2 {
         return None;
     }

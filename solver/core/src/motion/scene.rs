@@ -119,7 +119,4 @@ pub trait Scene<const D: usize>: Debug + Send + Sync {
 
     /// The vectors by which the domain repeats (m), for points of these meshes.
     fn images(&self, meshes: [&Mesh<D>; 2]) -> Vec<Point<D>>;
-
-    /// Where the domain starts along each coordinate (m).
-    fn domain_start(&self) -> Point<D>;
 }

@@ -11,14 +11,14 @@ const ROUNDING: f64 = 1e-12;
 ///
 /// Each vertex learns a surface vertex from its neighbours and walks from there along the surface
 /// to the nearest one, since far away cells are wider than the strips that have a surface vertex
-/// in common. The time is about in proportion to the mesh. In space a mesh may be cut open right beside
-/// bodies, and the way continues across periodic sides.
+/// in common. The time is about in proportion to the mesh. A mesh may be cut open right beside bodies:
+/// the way continues across periodic sides.
 pub(super) fn surface_distances<const D: usize>(
     mesh: &Mesh<D>,
     surface: impl Iterator<Item = NodeId>,
 ) -> Vec<f64> {
     let neighbours = Neighbours::new(mesh);
-    let images = if D == 3 { images(mesh) } else { vec![Vec::new(); mesh.n_vertices] };
+    let images = images(mesh);
     let mut nearest: Vec<Option<Source<D>>> = vec![None; mesh.n_vertices];
     let mut is_surface = vec![false; mesh.n_vertices];
     let mut waiting = VecDeque::new();

@@ -7,6 +7,7 @@ mod moves;
 use super::edges::BoundaryEdge;
 use crate::Point;
 use crate::number::index_u32;
+use crate::planar::torus::Torus;
 use crate::planar::vector::cross;
 
 /// Bit of a neighbour entry that marks a boundary edge; the other bits are its index.
@@ -31,6 +32,8 @@ pub struct Triangulation {
     pub across: Vec<[u32; 3]>,
     /// Edges of the boundary.
     pub edges: Vec<BoundaryEdge>,
+    /// Where it closes on itself.
+    pub torus: Torus,
     /// A triangle at each vertex.
     incident: Vec<u32>,
     /// Whether a vertex lies on the boundary.
@@ -57,6 +60,7 @@ impl Triangulation {
         triangles: Vec<[u32; 3]>,
         across: Vec<[u32; 3]>,
         edges: Vec<BoundaryEdge>,
+        torus: Torus,
     ) -> Self {
         let mut incident = vec![0; points.len()];
         for (t, corners) in triangles.iter().enumerate() {
@@ -70,7 +74,7 @@ impl Triangulation {
                 fixed[v as usize] = true;
             }
         }
-        Self { points, sizes, triangles, across, edges, incident, fixed }
+        Self { points, sizes, triangles, across, edges, torus, incident, fixed }
     }
 
     /// Whether a triangle is still there.
@@ -83,9 +87,22 @@ impl Triangulation {
         self.fixed[vertex as usize]
     }
 
-    /// Places of the corners.
+    /// Places of the corners, the first one's own and those of the others beside it.
     pub fn corners(&self, triangle: usize) -> [Point<2>; 3] {
-        self.triangles[triangle].map(|v| self.points[v as usize])
+        self.corners_from((triangle, 0))
+    }
+
+    /// Places of the corners from one on, its own and those of the others beside it.
+    pub fn corners_from(&self, (triangle, first): Corner) -> [Point<2>; 3] {
+        let [a, b, c] = [0, 1, 2].map(|i| self.triangles[triangle][(first + i) % 3]);
+        let from = self.points[a as usize];
+        [from, self.beside(b, from), self.beside(c, from)]
+    }
+
+    /// Place of a vertex beside another place.
+    #[inline]
+    pub fn beside(&self, vertex: u32, other: Point<2>) -> Point<2> {
+        self.torus.beside(self.points[vertex as usize], other)
     }
 
     /// Mean ratio of a triangle.

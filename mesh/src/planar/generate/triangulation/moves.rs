@@ -13,8 +13,8 @@ impl Triangulation {
         if (wall(t, s + 2) && wall(u, r + 1)) || (wall(t, s + 1) && wall(u, r + 2)) {
             return None;
         }
-        let [a, b, c] = [0, 1, 2].map(|i| self.points[self.triangles[t][(s + i) % 3] as usize]);
-        let d = self.points[self.triangles[u][(r + 2) % 3] as usize];
+        let [a, b, c] = self.corners_from((t, s));
+        let d = self.beside(self.triangles[u][(r + 2) % 3], a);
         Some(mean_ratio(a, d, c).min(mean_ratio(d, b, c)))
     }
 
@@ -133,7 +133,8 @@ impl Triangulation {
                 continue;
             }
             let (x, y) = (corners[(local + 1) % 3], corners[(local + 2) % 3]);
-            let [p, q, r] = [into, x, y].map(|v| self.points[v as usize]);
+            let p = self.points[into as usize];
+            let [q, r] = [x, y].map(|v| self.beside(v, p));
             worst = worst.min(mean_ratio(p, q, r));
             let mut walls = usize::from(self.across[*triangle][(local + 1) % 3] & WALL != 0);
             for side in [*local, (local + 2) % 3] {
@@ -193,6 +194,7 @@ impl Triangulation {
 mod tests {
     use super::*;
     use crate::planar::generate::edges::BoundaryEdge;
+    use crate::planar::torus::Torus;
     use crate::planar::vector::cross;
 
     /// A hexagon of radius one around an inner vertex, boundary edge i from corner i.
@@ -214,6 +216,7 @@ mod tests {
             (0..6).map(|i| [i, (i + 1) % 6, 6]).collect(),
             (0..6).map(|i| [WALL | i, (i + 1) % 6, (i + 5) % 6]).collect(),
             (0..6).map(edge).collect(),
+            Torus::default(),
         )
     }
 

@@ -9,7 +9,7 @@ use measure::FACES;
 use surface_set::SurfaceSet;
 
 use crate::Point;
-use crate::spatial::periods::Periods;
+use crate::periods::Periods;
 
 /// Stands for no vertex: the first vertex of a place in the list of cells that is free.
 pub const NO_VERTEX: u32 = u32::MAX;
@@ -38,7 +38,7 @@ enum Change {
 #[derive(Debug, Clone, Default)]
 pub struct Tetrahedra {
     /// Lengths by which space repeats (m), zero along the other axes.
-    periods: Periods,
+    periods: Periods<3>,
     /// Places of the vertices (m), each at one of its images.
     pub points: Vec<Point<3>>,
     /// Edge lengths wanted there (m).
@@ -64,7 +64,7 @@ pub struct Tetrahedra {
 
 impl Tetrahedra {
     /// A mesh without vertices in space that may repeat.
-    pub fn new(periods: Periods) -> Self {
+    pub fn new(periods: Periods<3>) -> Self {
         Self { periods, ..Self::default() }
     }
 

@@ -110,6 +110,7 @@ impl<const D: usize> FluidSystem<D> {
             frame,
         );
         let pressure = PressureMean::new(mesh, assembly.tables());
+        let nullspace = TranslationNullspace::new(problem, mesh, assembly.tables());
         let driven = problem.mean_flow.as_ref();
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
         let saddle_point = saddle_point(&layout, &constraints, modes);
@@ -126,7 +127,7 @@ impl<const D: usize> FluidSystem<D> {
             assembly,
             linear,
             pressure,
-            nullspace: TranslationNullspace::new(problem, mesh),
+            nullspace,
             cell,
             response: MeanFlowResponse::default(),
         }
@@ -237,7 +238,7 @@ impl<const D: usize> FluidSystem<D> {
         if problem.is_enclosed() {
             self.pressure = PressureMean::new(mesh, self.assembly.tables());
         }
-        self.nullspace = TranslationNullspace::new(problem, mesh);
+        self.nullspace = TranslationNullspace::new(problem, mesh, self.assembly.tables());
         self.linear.forget_weights();
         if problem.mean_flow.is_some() {
             self.cell = Some(CellIntegrals::new(problem, mesh, self.assembly.tables()));

@@ -7,10 +7,12 @@ use nalgebra::{SMatrix, Vector3};
 
 use super::super::constrain::pinned_node;
 use super::super::error::SolveError;
+use super::super::mean_flow::CellIntegrals;
 use super::super::problem::{MeanFlowAt, Problem};
 use super::super::rigid_equations::RigidBodyEquations;
 use super::super::solution::Solution;
 use crate::body::{Mode, in_space, on_mesh};
+use crate::space::Tables;
 
 /// Loads that sum up to less than this part of their sizes are balanced.
 const BALANCED: f64 = 1e-9;
@@ -22,9 +24,16 @@ pub(in super::super) struct TranslationNullspace<const D: usize> {
     axes: [bool; D],
     /// The node at which the system holds them.
     pinned: NodeId,
-    /// Nodes of one side of each periodic pair, with the weights of their velocity in the mean
-    /// velocity.
-    weights: Vec<NodeWeights<D>>,
+    mean: Mean<D>,
+}
+
+/// How the mean velocity is found.
+#[derive(Debug, Clone)]
+enum Mean<const D: usize> {
+    /// By integrals over fluid and bodies, wherever the mesh is cut open.
+    Integrals(CellIntegrals<D>),
+    /// By nodes of one side of each periodic pair, with the weights of their velocity in it.
+    Crossings(Vec<NodeWeights<D>>),
 }
 
 /// What the velocity of a node counts in the mean velocity.
@@ -37,10 +46,15 @@ struct NodeWeights<const D: usize> {
 
 impl<const D: usize> TranslationNullspace<D> {
     /// That of a problem on a mesh; `None` where all is held.
-    pub fn new(problem: &Problem<D>, mesh: &Mesh<D>) -> Option<Self> {
+    pub fn new(problem: &Problem<D>, mesh: &Mesh<D>, tables: &Tables<D>) -> Option<Self> {
         let axes = problem.free_translations();
         let pinned = axes.contains(&true).then(|| pinned_node(mesh))??;
-        Some(Self { axes, pinned, weights: weights(mesh) })
+        let mean = if D == 2 {
+            Mean::Integrals(CellIntegrals::new(problem, mesh, tables))
+        } else {
+            Mean::Crossings(weights(mesh))
+        };
+        Some(Self { axes, pinned, mean })
     }
 
     /// The sum of loads along each free axis must be zero.
@@ -72,7 +86,11 @@ impl<const D: usize> TranslationNullspace<D> {
 
     /// The mean velocity of fluid and bodies (m/s).
     pub fn mean(&self, solution: &Solution<D>) -> Point<D> {
-        self.weights.iter().fold(Point::<D>::zeros(), |sum, NodeWeights { node, weights }| {
+        let weights = match &self.mean {
+            Mean::Integrals(cell) => return cell.mean_velocity(solution),
+            Mean::Crossings(weights) => weights,
+        };
+        weights.iter().fold(Point::<D>::zeros(), |sum, NodeWeights { node, weights }| {
             let velocity = &solution.velocity[*node];
             sum + Point::<D>::from_fn(|axis, _| weights.column(axis).dot(velocity))
         })

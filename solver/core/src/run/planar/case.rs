@@ -1,8 +1,11 @@
 //! What a planar or axisymmetric case says of meshes: domain, sizes, bodies, sheets.
 
-use alewife_mesh::{CellId, Domain, Facet, Mesh, PlacedShape, Sizing, estimate_cells};
+use alewife_mesh::{
+    CellId, Domain, Facet, Mesh, PlacedShape, Sizing, check_placement, estimate_cells, generate,
+    generate_wrapped,
+};
+use nalgebra::Vector3;
 
-use super::periodic_cell::{PeriodicCell, initial_cell};
 use crate::body::Pose;
 use crate::case::{Body, BoundaryCondition, Case, MeshFile, Model};
 use crate::coupling::{Problem, ShapeError};
@@ -16,8 +19,8 @@ use crate::run::start::check_cells;
 /// What stays the same over all meshes of a run.
 #[derive(Debug)]
 pub(in crate::run) struct PlanarCase {
-    /// The domain as it was at first.
-    pub home: Domain,
+    /// The domain.
+    pub domain: Domain,
     /// The wanted cell sizes.
     pub sizing: Sizing,
     /// When a mesh is replaced.
@@ -43,7 +46,7 @@ impl PlanarCase {
         let sheets =
             case.boundary.keys().filter_map(|side| Some((side.clone(), waving_sheet(case, side)?)));
         Ok(Self {
-            home: case.mesh_domain(),
+            domain: case.mesh_domain(),
             sizing: sizing(case),
             limits: limits(case),
             motion: motion_settings(model, problem),
@@ -61,19 +64,22 @@ impl PlanarCase {
     }
 }
 
-/// The mesh of a case at time zero, with its domain and bodies as they are meshed.
-pub(super) struct MeshedCell {
+/// The mesh of a case at time zero, with its bodies as they are meshed.
+pub(super) struct MeshedCase {
     /// The mesh.
     pub mesh: Mesh<2>,
-    /// Domain and bodies.
-    pub cell: PeriodicCell,
+    /// The bodies.
+    pub shapes: Vec<PlacedShape>,
+    /// Whole periods by which each has been moved (m).
+    pub shifts: Vec<Vector3<f64>>,
 }
 
-impl MeshedCell {
-    /// A mesh of a case from elsewhere, its domain not cut open.
+impl MeshedCase {
+    /// A mesh of a case from elsewhere, with bodies where they are.
     pub fn of(model: &Model, mesh: Mesh<2>) -> Result<Self, RunError> {
         let shapes = placed_bodies(model)?;
-        Ok(Self { mesh, cell: PeriodicCell::whole(&model.case.mesh_domain(), shapes) })
+        let shifts = vec![Vector3::zeros(); shapes.len()];
+        Ok(Self { mesh, shapes, shifts })
     }
 
     /// Generates the mesh of a case at time zero.
@@ -82,10 +88,15 @@ impl MeshedCell {
         if let Some(mesh) = case.given_mesh().and_then(MeshFile::planar) {
             return Self::of(model, mesh.clone());
         }
-        let (domain, bodies, sizing) = (case.mesh_domain(), placed_bodies(model)?, sizing(case));
-        check_cells::<2>(|limit| estimate_cells(&domain, &bodies, &sizing, limit))?;
-        let cell = initial_cell(&domain, bodies)?;
-        let mut mesh = cell.mesh(&sizing)?;
+        let (domain, mut shapes, sizing) =
+            (case.mesh_domain(), placed_bodies(model)?, sizing(case));
+        check_cells::<2>(|limit| estimate_cells(&domain, &shapes, &sizing, limit))?;
+        let (mut mesh, shifts) = if check_placement(&domain, &shapes).is_ok() {
+            (generate(&domain, &shapes, &sizing)?, vec![Vector3::zeros(); shapes.len()])
+        } else {
+            let shifts = move_into(&domain, &mut shapes);
+            (generate_wrapped(&domain, &shapes, &sizing)?, shifts)
+        };
         // The side of a sheet is straight at first, but will not stay so
         let is_waving =
             |facet: &&Facet| waving_sheet(case, &mesh.boundaries[facet.boundary].name).is_some();
@@ -94,8 +105,18 @@ impl MeshedCell {
             let topology = mesh.topology_mut();
             waving.into_iter().for_each(|cell| topology.curved[cell] = true);
         }
-        Ok(Self { mesh, cell })
+        Ok(Self { mesh, shapes, shifts })
     }
+}
+
+/// Moves bodies by whole periods to where their centres are in the domain; gives how far (m).
+pub(super) fn move_into(domain: &Domain, shapes: &mut [PlacedShape]) -> Vec<Vector3<f64>> {
+    let into = |shape: &mut PlacedShape| {
+        let shift = domain.shift_into(shape.center);
+        shape.center += shift;
+        Vector3::new(shift.x, shift.y, 0.0)
+    };
+    shapes.iter_mut().map(into).collect()
 }
 
 /// The sheet that a side of the domain is, if it is one.

@@ -23,8 +23,8 @@ pub(super) fn moving_mesh_of(
     let shapes = BodyShapes::at(&problem.bodies, saved.time)?;
     let planar = Arc::new(PlanarCase::new(model, problem)?);
     let settings = planar.motion.clone();
-    let (start, poses) = (&saved.domain_start, saved.poses.clone());
-    let scene = PlanarScene::restored(planar, mesh, start, poses.clone(), &shapes)
-        .map_err(ResumeError::from)?;
+    let poses = saved.poses.clone();
+    let scene =
+        PlanarScene::restored(planar, mesh, poses.clone(), &shapes).map_err(ResumeError::from)?;
     Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, saved.time)?)
 }

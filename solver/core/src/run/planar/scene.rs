@@ -4,12 +4,12 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use alewife_mesh::{
-    BoundaryId, BoundaryKind, Domain, GapQuery, Mesh, NodeId, Outline, PlacedShape, Point, Shape,
+    BoundaryId, BoundaryKind, GapQuery, Mesh, NodeId, Outline, PlacedShape, Point, Shape,
+    generate_wrapped,
 };
 use nalgebra::Vector3;
 
-use super::case::PlanarCase;
-use super::periodic_cell::{PeriodicCell, choose_periodic_cell, start_of, started_at};
+use super::case::{PlanarCase, move_into};
 use crate::body::{Pose, on_mesh};
 use crate::contact::{Gaps, PlanarGaps};
 use crate::coupling::BodyShapes;
@@ -21,7 +21,6 @@ use crate::motion::{Meshed, PosesByShift, RemeshError, Scene};
 #[derive(Debug)]
 pub(in crate::run) struct PlanarScene {
     case: Arc<PlanarCase>,
-    domain: Domain,
     /// Bodies in the mesh.
     shapes: Vec<PlacedShape>,
     /// Parameters on the outlines of bodies that deform, by node.
@@ -39,37 +38,34 @@ fn placed(body: &PlacedShape, shape: Shape, pose: &Pose) -> PlacedShape {
 }
 
 impl PlanarScene {
-    /// Takes a mesh of a domain with bodies at poses.
+    /// Takes a mesh with bodies at poses.
     pub fn new(
         case: Arc<PlanarCase>,
         mesh: &Mesh<2>,
-        domain: Domain,
         shapes: Vec<PlacedShape>,
         poses: &[Pose],
     ) -> Result<Self, RemeshError> {
         let sheets = mesh.boundaries.iter().map(|boundary| case.sheet(&boundary.name)).collect();
-        let surroundings = GapQuery::new(&domain, &shapes)?;
+        let domain = &case.domain;
+        let surroundings = GapQuery::new(domain, &shapes)?;
         let fresh = Fresh::new(mesh, &surroundings, case.limits);
         let walls: Vec<usize> =
             (0..domain.sides().len()).filter(|&side| domain.wall(side).is_some()).collect();
         let gaps =
-            PlanarGaps::new(&domain, &walls, &shapes)?.with_joined(case.pivots.iter().copied());
+            PlanarGaps::new(domain, &walls, &shapes)?.with_joined(case.pivots.iter().copied());
         let materials = materials(&case, mesh, &shapes, poses)?;
-        Ok(Self { case, domain, shapes, materials, sheets, fresh, surroundings, gaps })
+        Ok(Self { case, shapes, materials, sheets, fresh, surroundings, gaps })
     }
 
-    /// That of a mesh whose domain starts at a point (m) along its periodic directions, with the bodies
-    /// of the case carried to poses.
+    /// That of a mesh with the bodies of the case carried to poses.
     pub fn restored(
         case: Arc<PlanarCase>,
         mesh: &Mesh<2>,
-        domain_start: &Point<2>,
         poses: Vec<Pose>,
         shapes: &BodyShapes,
     ) -> Result<Self, RemeshError> {
-        let domain = started_at(&case.home, domain_start);
         let carried = shapes_at(&case, &poses, shapes);
-        Self::new(case, mesh, domain, carried, &poses)
+        Self::new(case, mesh, carried, &poses)
     }
 }
 
@@ -187,23 +183,16 @@ impl Scene<2> for PlanarScene {
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
     ) -> Result<Meshed<2>, RemeshError> {
-        let shapes = shapes_at(&self.case, poses, shapes);
-        let cell = choose_periodic_cell(&self.domain, &self.case.home, shapes)?;
-        let mesh = cell.mesh(&self.case.sizing)?;
-        let PeriodicCell { domain, shapes, shifts, .. } = cell;
-        let shifts: Vec<Vector3<f64>> =
-            shifts.iter().map(|shift| Vector3::new(shift.x, shift.y, 0.0)).collect();
-        let poses = shifted(&shifts);
         let case = Arc::clone(&self.case);
-        let scene = Self::new(case, &mesh, domain, shapes, &poses)?;
+        let mut shapes = shapes_at(&case, poses, shapes);
+        let shifts = move_into(&case.domain, &mut shapes);
+        let mesh = generate_wrapped(&case.domain, &shapes, &case.sizing)?;
+        let poses = shifted(&shifts);
+        let scene = Self::new(case, &mesh, shapes, &poses)?;
         Ok(Meshed { mesh, scene: Box::new(scene), poses, shifts })
     }
 
     fn images(&self, [old, new]: [&Mesh<2>; 2]) -> Vec<Point<2>> {
-        self.domain.images_around(old.nodes.iter().chain(&new.nodes).copied())
-    }
-
-    fn domain_start(&self) -> Point<2> {
-        start_of(&self.domain)
+        self.case.domain.images_around(old.nodes.iter().chain(&new.nodes).copied())
     }
 }

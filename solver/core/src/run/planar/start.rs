@@ -3,9 +3,8 @@
 use std::sync::Arc;
 
 use alewife_mesh::{Mesh, Point};
-use nalgebra::Vector3;
 
-use super::case::{MeshedCell, PlanarCase};
+use super::case::{MeshedCase, PlanarCase};
 use super::resume::moving_mesh_of;
 use super::scene::PlanarScene;
 use crate::case::{Case, Model};
@@ -18,11 +17,11 @@ use crate::run::resume::Reference;
 
 impl CaseMesh<2> for Dimension<2> {
     fn generate(model: &Model) -> Result<InitialMesh<2>, RunError> {
-        Ok(initial(MeshedCell::generate(model)?))
+        Ok(initial(MeshedCase::generate(model)?))
     }
 
     fn adopt(model: &Model, mesh: Mesh<2>) -> Result<InitialMesh<2>, RunError> {
-        Ok(initial(MeshedCell::of(model, mesh)?))
+        Ok(initial(MeshedCase::of(model, mesh)?))
     }
 
     fn images(case: &Case, mesh: &Mesh<2>) -> Vec<Point<2>> {
@@ -39,14 +38,12 @@ impl CaseMesh<2> for Dimension<2> {
 }
 
 /// A mesh with what moves it.
-fn initial(meshed: MeshedCell) -> InitialMesh<2> {
-    let MeshedCell { mesh, cell } = meshed;
-    let shifts = cell.shifts.iter().map(|shift| Vector3::new(shift.x, shift.y, 0.0)).collect();
+fn initial(meshed: MeshedCase) -> InitialMesh<2> {
+    let MeshedCase { mesh, shapes, shifts } = meshed;
     let make: MakeMovingMesh<2> = Box::new(move |model, problem, mesh, poses| {
         let planar = Arc::new(PlanarCase::new(model, problem)?);
-        let (domain, shapes) = (cell.domain, cell.shapes);
         let moving = || -> Result<_, RemeshError> {
-            let scene = PlanarScene::new(Arc::clone(&planar), mesh, domain, shapes, &poses)?;
+            let scene = PlanarScene::new(Arc::clone(&planar), mesh, shapes, &poses)?;
             let settings = planar.motion.clone();
             Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, 0.0)?)
         };

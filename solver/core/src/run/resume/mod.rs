@@ -43,8 +43,6 @@ pub struct SavedReference<const D: usize> {
     pub poses: Vec<Pose>,
     /// The time it is made for (s).
     pub time: f64,
-    /// Start of the domain along its periodic directions.
-    pub domain_start: Point<D>,
 }
 
 impl<const D: usize> SavedReference<D> {
@@ -53,7 +51,6 @@ impl<const D: usize> SavedReference<D> {
             nodes: moving.reference().to_vec(),
             poses: moving.reference_poses().to_vec(),
             time: moving.reference_time(),
-            domain_start: moving.scene().domain_start(),
         }
     }
 }

@@ -127,8 +127,4 @@ impl Scene<3> for SpatialScene {
     fn images(&self, [old, new]: [&Mesh<3>; 2]) -> Vec<Point<3>> {
         self.case.domain.images_around(old.nodes.iter().chain(&new.nodes))
     }
-
-    fn domain_start(&self) -> Point<3> {
-        self.case.domain.corners()[0]
-    }
 }

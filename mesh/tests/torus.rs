@@ -1,11 +1,11 @@
-//! Periodic boxes whose bodies leave no straight strip free are cut open along a curve.
+//! Periodic boxes closed on themselves: bodies anywhere, and sides that match node by node.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 use alewife_mesh::{
-    Cut, Domain, Mesh, NodeId, PeriodicPair, PlacedShape, Point, Quality, Shape, Sizing,
-    check_mesh, check_placement, check_wrapped_placement, generate_along, whole,
+    Domain, Facet, Mesh, NodeId, PlacedShape, Point, Quality, Shape, Sizing, check_mesh,
+    check_placement, check_wrapped_placement, generate_wrapped, whole,
 };
 
 /// Smallest angle promised (degrees).
@@ -56,14 +56,9 @@ fn crowd(
     bodies
 }
 
-/// Everything that is promised of a mesh cut open; the quality.
-fn assert_cut(domain: &Domain, bodies: &[PlacedShape], sizing: &Sizing) -> Quality {
-    let cut = Cut::between(domain, bodies).expect("there is a way between the bodies");
-    let mut moved = bodies.to_vec();
-    for (body, shift) in moved.iter_mut().zip(cut.shifts()) {
-        body.center += shift;
-    }
-    let mesh = generate_along(&cut, domain, &moved, sizing).expect("the cell is meshed");
+/// Everything that is promised of a mesh of a torus; the quality.
+fn assert_closed(domain: &Domain, bodies: &[PlacedShape], sizing: &Sizing) -> Quality {
+    let mesh = generate_wrapped(domain, bodies, sizing).expect("the torus is meshed");
     check_mesh(&mesh).expect("it is a mesh");
     assert_pairs(domain, &mesh);
     let quality = Quality::of(&mesh);
@@ -88,11 +83,15 @@ fn area_of_bodies(mesh: &Mesh<2>) -> f64 {
         .sum::<f64>()
 }
 
-/// Pairs of nodes are apart by whole periods, and both sides of a pair are all of pairs.
+/// Nodes are whole periods from their originals, and each facet on a periodic side is that of its image
+/// on the opposite side.
 fn assert_pairs(domain: &Domain, mesh: &Mesh<2>) {
     let periods = domain.periods();
-    let copies: HashSet<NodeId> = mesh.periodic.iter().map(|pair| pair.copy).collect();
-    for PeriodicPair { copy, original } in &mesh.periodic {
+    let original: HashMap<NodeId, NodeId> =
+        mesh.periodic.iter().map(|pair| (pair.copy, pair.original)).collect();
+    assert_eq!(original.len(), mesh.periodic.len());
+    assert!(original.values().all(|node| !original.contains_key(node)));
+    for (copy, original) in &original {
         let apart = mesh.nodes[*copy] - mesh.nodes[*original];
         assert!(apart.norm() > 0.1);
         for axis in 0..2 {
@@ -101,11 +100,18 @@ fn assert_pairs(domain: &Domain, mesh: &Mesh<2>) {
             assert!(off.abs() < 1e-12, "{apart}");
         }
     }
-    for facet in &mesh.facets {
-        let side = facet.boundary.index();
-        if side < 4 && side % 2 == 1 && domain.is_periodic(side) {
-            assert!(mesh.facet_nodes(facet).all(|node| copies.contains(&node)));
-        }
+    let mut sides: HashMap<Vec<NodeId>, Vec<usize>> = HashMap::new();
+    let is_periodic =
+        |facet: &&Facet| facet.boundary.index() < 4 && domain.is_periodic(facet.boundary.index());
+    for facet in mesh.facets.iter().filter(is_periodic) {
+        let nodes = mesh.facet_nodes(facet);
+        let mut nodes: Vec<NodeId> =
+            nodes.map(|node| *original.get(&node).unwrap_or(&node)).collect();
+        nodes.sort_unstable();
+        sides.entry(nodes).or_default().push(facet.boundary.index());
+    }
+    for pair in sides.values() {
+        assert!(matches!(pair[..], [one, other] if one == other ^ 1), "{pair:?}");
     }
 }
 
@@ -118,7 +124,7 @@ fn lobed(radius: f64) -> Shape {
 }
 
 #[test]
-fn dense_random_placements_on_a_torus_are_cut_open_and_meshed() {
+fn dense_random_placements_on_a_torus_are_meshed() {
     let mut lowest = f64::INFINITY;
     // Each shape with each choice of periodic directions
     for seed in 0..9 {
@@ -135,7 +141,7 @@ fn dense_random_placements_on_a_torus_are_cut_open_and_meshed() {
         });
         let crosses = check_placement(&domain, &bodies).is_err();
         let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(0.15, 0.3, 0.6) };
-        let quality = assert_cut(&domain, &bodies, &sizing);
+        let quality = assert_closed(&domain, &bodies, &sizing);
         println!("{seed}: {} bodies, across {crosses}, {:.1}", bodies.len(), quality.min_angle);
         lowest = lowest.min(quality.min_angle);
     }
@@ -158,25 +164,25 @@ fn packed(columns: usize, rows: usize, gap: f64) -> (Domain, Vec<PlacedShape>) {
 }
 
 #[test]
-fn discs_a_hundredth_of_their_radius_apart_all_around_are_cut_open() {
+fn discs_a_hundredth_of_their_radius_apart_all_around_are_meshed() {
     for (columns, rows, gap) in [(1, 2, 0.01), (2, 2, 0.05), (3, 4, 0.01)] {
         let (domain, bodies) = packed(columns, rows, gap);
         let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(0.2, 0.3, 0.6) };
-        let quality = assert_cut(&domain, &bodies, &sizing);
+        let quality = assert_closed(&domain, &bodies, &sizing);
         println!("{columns} x {rows}, gap {gap}: {quality}");
         assert!(quality.min_angle > SMALLEST_ANGLE, "{quality}");
     }
 }
 
-/// A row and a column of discs that all but touch, with one wider gap in each.
+/// A row and a column of discs that all but touch and meet in the corner of the box.
 #[test]
-fn the_cut_takes_the_widest_of_narrow_gaps() {
+fn rows_of_discs_that_all_but_touch_are_meshed() {
     let domain = torus(8.0, 8.0, [true, true]);
     let radius = 0.99;
     let at = |k: usize, x: f64, y: f64| {
         placed(format!("disc{k}"), Shape::Disc { radius }, Point::<2>::new(x, y), 0.0)
     };
-    // A row and a column that meet in the corner, in each one gap of 0.04 among those of 0.0133
+    // In each one gap of 0.04 among those of 0.0133
     let step = 2.0 * radius + 0.04 / 3.0;
     let mut bodies = vec![at(0, 0.0, 1.0)];
     for k in 1..4 {
@@ -185,30 +191,37 @@ fn the_cut_takes_the_widest_of_narrow_gaps() {
         bodies.push(at(2 * k, 0.0, 1.0 + along));
     }
     let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(0.2, 0.3, 0.6) };
-    let cut = Cut::between(&domain, &bodies).unwrap();
-    let mut moved = bodies.clone();
-    for (body, shift) in moved.iter_mut().zip(cut.shifts()) {
-        body.center += shift;
+    assert!(assert_closed(&domain, &bodies, &sizing).min_angle > SMALLEST_ANGLE);
+}
+
+/// Wherever the sides of the box are, the mesh is the same to rounding.
+#[test]
+fn the_mesh_moves_along_with_its_bodies() {
+    let domain = torus(5.0, 4.0, [true, true]);
+    let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(0.15, 0.3, 0.6) };
+    let bodies = crowd(&domain, 4, &mut Random(5), &|_| Shape::Ellipse { semi_axes: [0.9, 0.4] });
+    let first = generate_wrapped(&domain, &bodies, &sizing).expect("a mesh");
+    for [x, y] in [[2.5, 2.0], [0.7, -1.1]] {
+        let mut moved = bodies.clone();
+        for body in &mut moved {
+            body.center.x = -1.0 + (body.center.x + 1.0 + x).rem_euclid(5.0);
+            body.center.y = 0.5 + (body.center.y - 0.5 + y).rem_euclid(4.0);
+        }
+        let mesh = generate_wrapped(&domain, &moved, &sizing).expect("a mesh");
+        let [one, other] = [&first, &mesh].map(|mesh| {
+            let mut qualities: Vec<f64> =
+                mesh.cell_ids().map(|cell| mesh.cell_quality(cell)).collect();
+            qualities.sort_by(f64::total_cmp);
+            qualities
+        });
+        assert_eq!(one.len(), other.len());
+        let farthest = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(farthest < 1e-9, "{farthest:e}");
     }
-    let mesh = generate_along(&cut, &domain, &moved, &sizing).unwrap();
-    let narrow = mesh
-        .facets
-        .iter()
-        .filter(|facet| facet.boundary.index() < 4)
-        .map(|facet| {
-            let inner = mesh.facet_inner_nodes(facet).next();
-            let middle = mesh.nodes[inner.expect("one inner node")];
-            let gap = |body: &PlacedShape| (middle - body.center).norm() - radius;
-            moved.iter().map(gap).fold(f64::INFINITY, f64::min)
-        })
-        .fold(f64::INFINITY, f64::min);
-    // Half of the wide gap
-    assert!(narrow > 0.019, "{narrow}");
-    assert!(assert_cut(&domain, &bodies, &sizing).min_angle > SMALLEST_ANGLE);
 }
 
 #[test]
-fn discs_on_the_corner_of_a_box_and_alone_in_a_row_are_cut_open() {
+fn discs_on_the_corner_of_a_box_and_alone_in_a_row_are_meshed() {
     let sizing = Sizing::graded(0.1, 0.3, 0.6);
     for (width, periodic, radius) in
         [(4.0, [true, true], 1.0), (2.1, [true, true], 1.0), (4.0, [true, false], 0.4)]
@@ -217,9 +230,58 @@ fn discs_on_the_corner_of_a_box_and_alone_in_a_row_are_cut_open() {
         for (x, y) in [(-1.0, 0.5), (-0.2, 0.5), (1.0, 2.5)] {
             let y = if periodic[1] { y } else { 2.4 };
             let body = placed("b".into(), Shape::Disc { radius }, Point::<2>::new(x, y), 0.0);
-            let quality = assert_cut(&domain, &[body], &sizing);
+            let quality = assert_closed(&domain, &[body], &sizing);
             assert!(quality.min_angle > SMALLEST_ANGLE, "{quality}");
         }
+    }
+}
+
+/// A mirror-symmetric problem whose bodies lie across the sides along the line of symmetry.
+#[test]
+fn the_mesh_of_a_symmetric_torus_is_symmetric_to_the_last_bit() {
+    let (min, max) = (Point::<2>::new(0.0, -1.5), Point::<2>::new(4.0, 1.5));
+    let disc = |name: &str, x: f64, y: f64| {
+        placed(name.into(), Shape::Disc { radius: 0.4 }, Point::<2>::new(x, y), 0.0)
+    };
+    let bodies = [
+        disc("a", 3.9, 0.0),
+        disc("b", 2.5, 0.0),
+        disc("above", 0.8, 0.9),
+        disc("below", 0.8, -0.9),
+    ];
+    for (periodic_y, bodies) in [(false, &bodies[..1]), (false, &bodies), (true, &bodies)] {
+        let domain = Domain::Box { min, max, periodic_x: true, periodic_y };
+        let mesh = generate_wrapped(&domain, bodies, &Sizing::graded(0.1, 0.3, 0.4)).unwrap();
+        check_mesh(&mesh).expect("it is a mesh");
+        assert_pairs(&domain, &mesh);
+        let key = |node: &Point<2>, sign: f64| (node.x.to_bits(), (sign * node.y + 0.0).to_bits());
+        let [mut nodes, mut images] =
+            [1.0, -1.0].map(|sign| mesh.nodes.iter().map(|n| key(n, sign)).collect::<Vec<_>>());
+        nodes.sort_unstable();
+        images.sort_unstable();
+        assert_eq!(nodes, images);
+        let area = 12.0 - area_of_bodies(&mesh);
+        assert!((mesh.measure() / area - 1.0).abs() < 1e-12);
+        assert!(Quality::of(&mesh).min_angle > SMALLEST_ANGLE);
+    }
+}
+
+#[test]
+fn spheres_lie_across_the_ends_of_a_periodic_cylinder() {
+    let domain = Domain::Cylinder { x: [0.0, 6.0], radius: 1.5, periodic_x: true };
+    let sphere = |name: &str, x: f64| {
+        placed(name.into(), Shape::Sphere { radius: 1.0 }, Point::<2>::new(x, 0.0), 0.0)
+    };
+    let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(0.15, 0.3, 0.6) };
+    let pair = [sphere("t", 2.9), sphere("s", 0.2)];
+    for bodies in [&pair[1..], &pair, &[sphere("s", 5.9)]] {
+        let mesh = generate_wrapped(&domain, bodies, &sizing).expect("it is meshed");
+        check_mesh(&mesh).expect("it is a mesh");
+        assert_pairs(&domain, &mesh);
+        let quality = Quality::of(&mesh);
+        assert!(quality.min_angle > SMALLEST_ANGLE, "{quality}");
+        let area = 9.0 - 0.5 * PI * bodies.len() as f64;
+        assert!((mesh.measure() / area - 1.0).abs() < 1e-4, "{} for {area}", mesh.measure());
     }
 }
 
@@ -229,7 +291,8 @@ fn bodies_that_overlap_an_image_are_refused() {
     let disc = |name: &str, x: f64, radius: f64| {
         placed(name.into(), Shape::Disc { radius }, Point::<2>::new(x, 2.0), 0.0)
     };
-    assert!(Cut::between(&domain, &[disc("large", 1.0, 2.01)]).is_err());
+    let sizing = Sizing::graded(0.2, 0.3, 0.6);
+    assert!(generate_wrapped(&domain, &[disc("large", 1.0, 2.01)], &sizing).is_err());
     let pair = [disc("a", -0.9, 0.5), disc("b", 2.5, 0.2)];
     assert!(check_wrapped_placement(&domain, &pair).is_err());
     assert!(check_placement(&domain, &pair).is_err());

@@ -3,19 +3,25 @@
 use crate::Point;
 
 /// Lengths by which space repeats along the axes.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Periods {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Periods<const D: usize> {
     /// The lengths (m), zero along axes without.
-    lengths: Point<3>,
+    lengths: Point<D>,
     /// One over each, zero along axes without (1/m).
-    inverse: Point<3>,
+    inverse: Point<D>,
     is_any: bool,
 }
 
-impl Periods {
+impl<const D: usize> Default for Periods<D> {
+    fn default() -> Self {
+        Self::new(Point::<D>::zeros())
+    }
+}
+
+impl<const D: usize> Periods<D> {
     /// Space that repeats by lengths (m), zero along axes without.
     #[must_use]
-    pub fn new(lengths: Point<3>) -> Self {
+    pub fn new(lengths: Point<D>) -> Self {
         let inverse = lengths.map(|length| if length > 0.0 { 1.0 / length } else { 0.0 });
         Self { lengths, inverse, is_any: lengths.amax() > 0.0 }
     }
@@ -42,7 +48,7 @@ impl Periods {
     /// Whole periods from a point to the image of another one that is next to it.
     #[inline]
     #[must_use]
-    pub fn steps(&self, point: Point<3>, beside: Point<3>) -> [i32; 3] {
+    pub fn steps(&self, point: Point<D>, beside: Point<D>) -> [i32; D] {
         #[expect(clippy::cast_possible_truncation, reason = "a few periods at most")]
         std::array::from_fn(|axis| {
             let periods = (beside[axis] - point[axis]) * self.inverse[axis];
@@ -54,26 +60,26 @@ impl Periods {
     /// A number of whole periods along each axis (m).
     #[inline]
     #[must_use]
-    pub fn shift(&self, steps: [i32; 3]) -> Point<3> {
-        Point::<3>::from_fn(|axis, _| f64::from(steps[axis]) * self.lengths[axis])
+    pub fn shift(&self, steps: [i32; D]) -> Point<D> {
+        Point::<D>::from_fn(|axis, _| f64::from(steps[axis]) * self.lengths[axis])
     }
 
     /// The image of a point that is next to another one (m).
     #[inline]
     #[must_use]
-    pub fn beside(&self, point: Point<3>, beside: Point<3>) -> Point<3> {
+    pub fn beside(&self, point: Point<D>, beside: Point<D>) -> Point<D> {
         if !self.is_any {
             return point;
         }
         let steps = self.steps(point, beside);
-        if steps == [0; 3] { point } else { point + self.shift(steps) }
+        if steps == [0; D] { point } else { point + self.shift(steps) }
     }
 
     /// The shifts by whole periods to a point itself and to its images around it (m), itself first.
     #[must_use]
-    pub fn shifts(&self) -> Vec<Point<3>> {
-        let mut all = vec![Point::<3>::zeros()];
-        for axis in (0..3).filter(|axis| self.lengths[*axis] > 0.0) {
+    pub fn shifts(&self) -> Vec<Point<D>> {
+        let mut all = vec![Point::<D>::zeros()];
+        for axis in (0..D).filter(|axis| self.lengths[*axis] > 0.0) {
             for at in 0..all.len() {
                 for sign in [-1.0, 1.0] {
                     let mut shift = all[at];
@@ -92,7 +98,7 @@ mod tests {
 
     #[test]
     fn a_point_has_neighbours_along_its_periods() {
-        assert_eq!(Periods::default().shifts().len(), 1);
+        assert_eq!(Periods::<3>::default().shifts().len(), 1);
         let periods = Periods::new(Point::<3>::new(2.0, 0.0, 3.0));
         let all = periods.shifts();
         assert_eq!((all.len(), all[0]), (9, Point::<3>::zeros()));
