@@ -54,7 +54,9 @@ impl<const D: usize> StepContext<'_, D> {
             let errors = pose_errors(state, &history.step, &reached);
             error = error.max(stepper.gap_error(self.gaps(), state, &reached, &errors));
         }
-        let report = StepReport { loads: loads.surfaces, iterations: flow.n_systems, error };
+        let errors = self.step_errors(&flow.solution, &reached);
+        let iterations = flow.n_systems;
+        let report = StepReport { loads: loads.surfaces, iterations, error, errors };
         let end = ConvergedStep {
             contact: stepper.with_minimum_gap(flow.contact, self.gaps(), state, &reached),
             solution: flow.solution,
@@ -82,6 +84,11 @@ impl<const D: usize> StepContext<'_, D> {
             stepper.path.move_mesh(work, stepper.problem, state, &poses, &history.shapes)?;
         let rates = solution.velocity.iter().zip(&history.derivative);
         let twists = solution.twists.iter().zip(&configuration.bodies.bodies);
+        let older = state.now.twists.iter().zip(&state.previous.twists);
+        let twist_rates = solution.twists.iter().zip(older).map(|(new, (now, before))| {
+            let [new, now, before] = [new, now, before].map(Twist::to_vector);
+            Twist::from_vector(&bdf.rate(new, now, before))
+        });
         let legs = legs(stepper.problem, state, &[], &poses, &solution.twists);
         Ok(NewLevel {
             time: history.step.time,
@@ -92,6 +99,7 @@ impl<const D: usize> StepContext<'_, D> {
                     Twist::from_vector(&(twist.to_vector() * bdf.next + body.history))
                 })
                 .collect(),
+            twist_rates: twist_rates.collect(),
             nodes,
             poses,
             contact,

@@ -7,7 +7,7 @@ use super::mesh_path::MeshPath;
 use crate::case::Convection;
 use crate::contact::Law;
 use crate::coupling::{Problem, SurfaceLoads};
-use crate::state::{NewLevel, State};
+use crate::state::{NewLevel, State, StepErrors};
 use crate::time::Bdf;
 
 /// Whether a run is to end, asked between steps and within long ones; what is not yet a whole step is
@@ -73,6 +73,8 @@ pub struct StepReport {
     /// Estimate of the error of the step, relative to the largest speed, or ten times that of the smallest gap, relative to
     /// it, where that is more; zero for a step of first order.
     pub error: f64,
+    /// What the step leaves in flow and poses.
+    pub errors: StepErrors,
 }
 
 /// What a step leads to.

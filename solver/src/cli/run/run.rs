@@ -9,7 +9,7 @@ use clap::{Args, ValueHint};
 
 use super::continuation::{Beginning, beginning, n_requeued};
 use super::live;
-use super::results::{print_comparisons, tell_cell_numbers, tell_last_values};
+use super::results::{print_comparisons, tell_cell_numbers, tell_last_values, tell_step_errors};
 use crate::case::{Case, CaseFile, TimeSettings, rounded};
 use crate::cli::complete;
 use crate::cli::engine::{self, Resumed, RunInto, SignalWatch, WallLimit, threads, too_large};
@@ -197,6 +197,7 @@ where
     let before = resumed.as_ref().map_or(0, |resumed| resumed.state.step());
     tell_cost(file, &outcome, Spent { steps_before: before, started }, &out);
     tell_cell_numbers(&outcome);
+    tell_step_errors(&outcome);
     Ok(Exit::Done)
 }
 

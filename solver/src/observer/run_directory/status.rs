@@ -12,7 +12,7 @@ use super::restarts::Restarts;
 use super::write_times::WriteTimes;
 use crate::case::{Case, TimeSettings};
 use crate::observer::system::{process, write_atomic, write_whole};
-use crate::run::{LastState, Observer, RunError, Snapshot};
+use crate::run::{LastState, Observer, RunError, Snapshot, StepErrorReport};
 use crate::step::FlowError;
 use crate::timing::{Stage, Timing, cpu_seconds};
 
@@ -78,6 +78,9 @@ pub struct Status {
     /// Whether it ended for a reason outside of it, and continues when it is run again.
     #[serde(default)]
     pub is_interrupted: bool,
+    /// What the steps so far leave, as parts of what they are in; nothing for a steady solution.
+    #[serde(default)]
+    pub step_errors: Option<StepErrorReport>,
     /// The process.
     pub pid: u32,
     /// When this was written (UTC).
@@ -151,6 +154,7 @@ impl StatusFile {
             restarts: history.map_or_else(Restarts::default, |history| history.restarts),
             longest_checkpoint: None,
             is_interrupted: false,
+            step_errors: None,
             pid: std::process::id(),
             updated_at: String::new(),
         };
@@ -182,6 +186,7 @@ impl<const D: usize> Observer<D> for StatusFile {
         self.status.step = snapshot.step;
         self.status.time = snapshot.time;
         self.status.dofs = snapshot.n_dofs;
+        self.status.step_errors = snapshot.step_errors;
         let wall = self.started.elapsed().as_secs_f64();
         self.status.first_row.get_or_insert(FirstRow { time: snapshot.time, wall });
         by_stage(&mut self.status, snapshot.timing);
