@@ -98,9 +98,9 @@ fn a_flow_that_blows_up_stops_the_run_with_the_place() {
         "#,
     );
     let error = simulate::<2>(&case, &mut []).expect_err("it blows up");
-    let RunError::BlownUp { time, times, near, cell_reynolds, .. } = &error else {
+    let RunError::BlownUp { time, near, cell_reynolds, .. } = &error else {
         panic!("{error}");
     };
-    assert!(*time < 1.5 && *times > 30.0 && near.len() == 2 && *cell_reynolds > 1e3, "{error}");
+    assert!(*time < 1.5 && near.len() == 2 && *cell_reynolds > 1e3, "{error}");
     assert!(error.to_string().contains("the flow has blown up"), "{error}");
 }

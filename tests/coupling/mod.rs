@@ -1,7 +1,9 @@
 //! Fluid and bodies in one system: loads, free motion, reciprocity, energy, frames, threads.
 
+mod blow_up;
 mod failure;
 mod free;
 mod loads;
 mod mean_flow;
+mod step_errors;
 mod threads;

@@ -87,6 +87,7 @@ impl Run {
             twist: Twist { linear: Vector3::new(0.3, 0.0, 0.0), angular: Vector3::z() * 0.1 },
             load: Wrench::default(),
             surface_load: Wrench::default(),
+            friction: 0.0,
             contact: Wrench::default(),
             power: 0.25,
             recoil: None,
@@ -104,6 +105,7 @@ impl Run {
             values: &Self::values(step),
             n_dofs: 22,
             iterations: 1,
+            step_errors: None,
             timing: &self.timing,
             is_last: step == STEPS,
         };

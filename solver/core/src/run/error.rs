@@ -3,7 +3,9 @@
 use alewife_mesh::MeshError;
 use thiserror::Error;
 
+use super::excess::Excess;
 use super::resume::ResumeError;
+use crate::case::rounded;
 use crate::contact::ContactError;
 use crate::coupling::{ShapeError, coordinates};
 use crate::motion::{MotionError, RemeshError};
@@ -17,20 +19,24 @@ pub enum RunError {
     Flow(#[from] FlowError),
     /// The fluid is far faster than what drives it.
     #[error(
-        "{}: the flow has blown up: on average it is {times:.0} times as fast as \
-         the fastest boundary ever was, most near {}; CFL number {cfl:.3e}, cell Reynolds number \
+        "{}: the flow has blown up: {excess}, most near {}; CFL number {cfl:.3e}, cell Reynolds number \
          {cell_reynolds:.3e}; look at failure/flow.vtu, and start again with a finer mesh there, a \
-         shorter time.unsteady.step, or time.unsteady.convection = \"newton\"",
+         shorter time.unsteady.step, or time.unsteady.convection = \"newton\"{}",
         at_step(*step, *time),
-        coordinates(.near)
+        coordinates(.near),
+        sound.map_or_else(String::new, |time| {
+            format!("; failure/last.state is of t = {}, before that", rounded(time))
+        })
     )]
     BlownUp {
         /// Step.
         step: usize,
         /// Time (s).
         time: f64,
-        /// Root mean square of the velocity over the largest speed of a boundary so far.
-        times: f64,
+        /// What is larger than what drives it can have made it.
+        excess: Excess,
+        /// Time (s) of the last state before, where one is left.
+        sound: Option<f64>,
         /// CFL number of the step.
         cfl: f64,
         /// Largest cell Reynolds number.

@@ -11,7 +11,8 @@ use super::prepare::{Prepared, prepare};
 use super::resume::SavedState;
 use super::simulation::{CellCrossing, Simulation};
 use super::snapshot::{LastState, Observer, Snapshot};
-use super::watch::Pace;
+use super::step_report::{LoadErrors, StepErrorReport};
+use super::watch::{ForceAgreement, Pace, SoundState};
 use super::{RunError, Series};
 use crate::case::{Case, Model, Steady, TimeSettings, Unsteady};
 use crate::coupling::SurfaceLoads;
@@ -32,6 +33,8 @@ pub struct RunSummary {
     pub steps: usize,
     /// First cycles of swimmers without inertia that ended in this run.
     pub cycles: Vec<CycleReport>,
+    /// What its steps leave; none of a steady solution.
+    pub step_errors: Option<StepErrorReport>,
 }
 
 /// Runs a case to its end, from a saved state if there is one.
@@ -69,6 +72,8 @@ where
     }
     simulation.stop = Some(Arc::clone(&stop));
     let case = &model.case;
+    let mut load_errors = LoadErrors::new(&simulation, &series.names);
+    load_errors.resume(&series);
     let mut run = Run {
         case,
         observers,
@@ -77,6 +82,9 @@ where
         measure,
         warned: Warned::default(),
         pace: Pace::default(),
+        sound: None,
+        load_errors,
+        forces: Vec::new(),
         cycles: Vec::new(),
     };
     let made = interrupt::hearing(Arc::clone(&stop), || run.make(saved.is_some()));
@@ -85,14 +93,17 @@ where
         run.notify_of_failure(error);
     }
     let steps = result?;
+    run.warn_at_end();
     let timing = *run.simulation.timing();
     if let Err(error) = run.observers.iter_mut().try_for_each(|observer| observer.on_end(&timing)) {
         let error = RunError::from(error);
         run.notify_of_failure(&error);
         return Err(error);
     }
+    let step_errors = run.step_errors();
     let Run { simulation: Simulation { work, .. }, series, cycles, .. } = run;
-    Ok(RunSummary { series, timing: work.timing, n_dofs: work.system.n_unknowns, steps, cycles })
+    let n_dofs = work.system.n_unknowns;
+    Ok(RunSummary { series, timing: work.timing, n_dofs, steps, cycles, step_errors })
 }
 
 /// What work came to in which meshing hears a request to stop; where it was ended, the run is stopped at a step and
@@ -113,6 +124,12 @@ pub(super) struct Run<'a, const D: usize> {
     measure: Measure<D>,
     /// How fast its flow is.
     pub pace: Pace,
+    /// Errors of the forces on bodies.
+    load_errors: LoadErrors,
+    /// How well two evaluations of the forces on bodies agree.
+    pub forces: Vec<ForceAgreement>,
+    /// The last state kept in which the flow was sound.
+    pub sound: Option<SoundState<D>>,
     /// What it has warned of.
     pub warned: Warned,
     /// First cycles that ended.
@@ -164,6 +181,11 @@ pub(super) struct StepSummary {
 }
 
 impl<const D: usize> Run<'_, D> {
+    /// What is run.
+    pub(super) fn case(&self) -> &Case {
+        self.case
+    }
+
     /// Makes the run; the number of its steps.
     fn make(&mut self, is_resumed: bool) -> Result<usize, RunError> {
         let case = self.case;
@@ -181,6 +203,28 @@ impl<const D: usize> Run<'_, D> {
         }
     }
 
+    /// What the steps so far leave; none of a steady solution.
+    fn step_errors(&self) -> Option<StepErrorReport> {
+        let TimeSettings::Unsteady(_) = &self.case.time else { return None };
+        let errors = &self.simulation.state.step_errors;
+        Some(StepErrorReport {
+            velocity: errors.of_flow(),
+            ways: errors.of_ways(),
+            loads: self.load_errors.largest(),
+        })
+    }
+
+    /// Warns of steps and cells that are too large for what was found.
+    fn warn_at_end(&self) {
+        if let (TimeSettings::Unsteady(settings), Some(errors)) =
+            (&self.case.time, self.step_errors())
+            && settings.adaptive.is_none()
+        {
+            errors.log(settings, self.simulation.longest_step_of_vortices());
+        }
+        self.warn_of_resolution();
+    }
+
     /// Tells the observers why the run ends, with what can be saved of it.
     fn notify_of_failure(&mut self, error: &RunError) {
         let Simulation { state, .. } = &self.simulation;
@@ -189,7 +233,9 @@ impl<const D: usize> Run<'_, D> {
             // Before the flow at the start is known there is nothing to resume from
             TimeSettings::Unsteady(_) if self.series.times.is_empty() => None,
             // No step leads on from a flow that is wrong
-            TimeSettings::Unsteady(_) if matches!(error, RunError::BlownUp { .. }) => None,
+            TimeSettings::Unsteady(_) if matches!(error, RunError::BlownUp { .. }) => {
+                self.sound.take().map(|sound| sound.saved(&self.series))
+            }
             TimeSettings::Unsteady(_) => {
                 let saved = SavedState::of(self.case, &self.simulation, &self.series);
                 saved.inspect_err(|error| tracing::error!(%error, "no state is left")).ok()
@@ -262,6 +308,7 @@ impl<const D: usize> Run<'_, D> {
             ended.iter().for_each(|cycle| cycle.log(self.simulation.scheme.method));
         }
         self.cycles.extend(ended);
+        let step_errors = self.step_errors();
         let Self { case, observers, series, simulation, measure, .. } = self;
         let measured = measure.measure(case, simulation, loads, summary.crossing)?;
         let Simulation { state, work, .. } = simulation;
@@ -280,6 +327,7 @@ impl<const D: usize> Run<'_, D> {
             values: &measured.values,
             n_dofs: work.system.n_unknowns,
             iterations: summary.iterations,
+            step_errors,
             timing: &timing,
             is_last: summary.is_last,
         };
@@ -291,7 +339,10 @@ impl<const D: usize> Run<'_, D> {
             observers.iter_mut().filter_map(|one| one.wants_state(&snapshot).then_some(()));
         let is_wanted = wanted.count() > 0;
         series.rows.push(measured.values);
+        self.load_errors.add(&self.series);
+        self.compare_forces(&measured.bodies);
         self.check_soundness(&measured.flow)?;
+        self.keep_sound_state()?;
         self.propose_contact();
         if is_wanted { self.show_state() } else { Ok(()) }
     }

@@ -138,7 +138,7 @@ impl<const D: usize> Simulation<D> {
             }
             Scheme::Bdf2 | Scheme::Bdf1 => stepper.advance(work, state, Bdf::first_order(size))?,
         };
-        let StepReport { error, contact_error, .. } = report;
+        let (error, contact_error) = (report.error, report.contact_error);
         if error > REJECTED * tolerance {
             return Err(StepError::LocalErrorTooLarge { error, tolerance });
         }
@@ -146,10 +146,12 @@ impl<const D: usize> Simulation<D> {
             return Err(StepError::ContactNotResolved { excess: contact_error });
         }
         state.accept(problem, level);
+        state.record_step_errors(&report.errors);
         // As a run has it that resumes from this state
         work.system.fit_to_poses(problem, &work.mesh, &state.in_mesh(&state.poses));
         work.system.mark_solver();
         self.is_fresh = false;
+        self.record_drives(&report.loads)?;
         Ok(report)
     }
 
@@ -236,6 +238,20 @@ impl<const D: usize> Simulation<D> {
         };
         let cells = (0..state.mesh.n_cells()).into_par_iter().with_min_len(1024);
         cells.map(of_cell).reduce(|| least, larger)
+    }
+
+    /// Largest extent of the domain along a coordinate (m).
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        let along = |axis: usize| {
+            let start = [f64::INFINITY, f64::NEG_INFINITY];
+            let [least, most] =
+                self.state.nodes.iter().fold(start, |[least, most], node| {
+                    [least.min(node[axis]), most.max(node[axis])]
+                });
+            most - least
+        };
+        (0..D).map(along).fold(0.0, f64::max)
     }
 
     /// Records where swimmers are, and at the start what they do.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use alewife_mesh::{Mesh, Point};
 
-use super::{RunError, SavedState};
+use super::{RunError, SavedState, StepErrorReport};
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::Case;
 use crate::gait::RecoilCorrection;
@@ -24,6 +24,8 @@ pub struct BodyReport {
     pub load: Wrench,
     /// The same by integrating the stress over the surface: a cross-check of lower order.
     pub surface_load: Wrench,
+    /// Integral of the size of the viscous stress over the surface (N).
+    pub friction: f64,
     /// Load of contact with other bodies and walls.
     pub contact: Wrench,
     /// Rate of work of the body's surface on the fluid (W).
@@ -59,6 +61,8 @@ pub struct Snapshot<'a, const D: usize> {
     pub n_dofs: usize,
     /// Linear systems solved in the step.
     pub iterations: usize,
+    /// What the steps so far leave; none of a steady solution.
+    pub step_errors: Option<StepErrorReport>,
     /// Time spent so far.
     pub timing: &'a Timing,
     /// Whether the run ends here.

@@ -3,18 +3,24 @@
 mod cycle_error;
 mod cycles;
 mod energy;
+mod energy_supply;
+mod initial_levels;
 mod momentum;
 mod propulsion_history;
 mod saved_mesh;
 #[expect(clippy::module_inception, reason = "the state itself is what the room is named after")]
 mod state;
+mod step_errors;
 #[cfg(test)]
 mod tests;
 
 pub use cycle_error::{CycleError, Leg, StagePoint, Waypoint};
 pub use cycles::{CycleMeans, Cycles, Record};
 pub use energy::{EnergyBalance, EnergyRecord};
+pub use energy_supply::{Drives, EnergySupply, LoadHistory, LoadStep};
+pub use initial_levels::InitialLevels;
 pub use momentum::{MomentumBalance, MomentumRecord, Part};
 pub use propulsion_history::{PowerShare, PropulsionHistory, PropulsionStep};
 pub use saved_mesh::is_consistent;
-pub use state::{Evolving, InitialLevels, NewLevel, State, TransferredState, seen_from};
+pub use state::{Evolving, NewLevel, State, TransferredState, seen_from};
+pub use step_errors::{ErrorOfChange, SquaredError, StepErrors};

@@ -7,9 +7,12 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::energy::{EnergyBalance, EnergyRecord};
+use super::energy_supply::{Drives, EnergySupply};
+use super::initial_levels::InitialLevels;
 use super::momentum::{MomentumBalance, MomentumRecord};
 use super::propulsion_history::{PropulsionHistory, PropulsionStep};
 use super::saved_mesh;
+use super::step_errors::StepErrors;
 use crate::body::{Pose, Twist, on_mesh};
 use crate::contact::{ContactLoads, MinimumGap};
 use crate::coupling::{
@@ -65,12 +68,16 @@ pub struct Evolving<const D: usize> {
     pub image_shifts: Vec<Vector3<f64>>,
     /// Rates of change of the velocities at the nodes (m/s2).
     pub rates: Vec<Point<D>>,
-    /// Rates of change of the rigid velocities (m/s2, rad/s2).
+    /// Rates of change of the momenta of the bodies, over their inertia (m/s2, rad/s2).
     pub accelerations: Vec<Twist>,
+    /// Rates of change of their velocities (m/s2, rad/s2): others, where the inertia of a body turns with it.
+    pub twist_rates: Vec<Twist>,
     /// The largest speed so far (m/s).
     pub top_speed: f64,
-    /// The largest speed of a boundary so far (m/s).
-    pub boundary_speed: f64,
+    /// The work done on fluid and bodies so far, and what drives them.
+    pub supply: EnergySupply,
+    /// What the errors of the steps amount to.
+    pub step_errors: StepErrors,
     /// Loads of contact, and the smallest gap.
     pub contact: ContactLoads,
     /// What each group of bodies does and has done.
@@ -96,33 +103,14 @@ pub struct NewLevel<const D: usize> {
     pub nodes: Vec<Point<D>>,
     /// Rates of change of the velocities at the nodes (m/s2); `None` leaves those before.
     pub rates: Option<Vec<Point<D>>>,
-    /// Rates of change of the rigid velocities (m/s2, rad/s2).
+    /// Rates of change of the momenta of the bodies, over their inertia (m/s2, rad/s2).
     pub accelerations: Vec<Twist>,
+    /// Rates of change of their velocities (m/s2, rad/s2).
+    pub twist_rates: Vec<Twist>,
     /// Loads of contact, and the smallest gap.
     pub contact: ContactLoads,
     /// What each group of bodies did in the step.
     pub propulsion: Vec<PropulsionStep>,
-}
-
-/// The two levels of a flow that is known at the start.
-#[derive(Debug, Clone)]
-pub struct InitialLevels<const D: usize> {
-    /// At the start.
-    pub now: Solution<D>,
-    /// One step before.
-    pub previous: Solution<D>,
-    /// Positions of the nodes one step before, seen from the frame (m); by default those at the start.
-    pub nodes_before: Option<Vec<Point<D>>>,
-    /// Poses one step before; by default those at the start.
-    pub previous_poses: Option<Vec<Pose>>,
-}
-
-impl<const D: usize> InitialLevels<D> {
-    /// Both levels the same.
-    #[must_use]
-    pub fn steady(flow: Solution<D>) -> Self {
-        Self { now: flow.clone(), previous: flow, nodes_before: None, previous_poses: None }
-    }
 }
 
 /// A state on another mesh.
@@ -163,8 +151,10 @@ impl<const D: usize> State<D> {
             image_shifts: vec![Vector3::zeros(); n_bodies],
             rates: vec![Point::<D>::zeros(); mesh.n_nodes()],
             accelerations: vec![Twist::default(); n_bodies],
+            twist_rates: vec![Twist::default(); n_bodies],
             top_speed: 0.0,
-            boundary_speed: 0.0,
+            supply: EnergySupply::default(),
+            step_errors: StepErrors::default(),
             contact: ContactLoads::none(n_bodies),
             propulsion: vec![PropulsionHistory::default(); problem.groups.len()],
             energy: EnergyBalance::default(),
@@ -296,9 +286,21 @@ impl<const D: usize> State<D> {
         self.0.momentum.add(record)
     }
 
-    /// Notes the largest speed of a boundary at present (m/s).
-    pub fn record_boundary_speed(&mut self, speed: f64) {
-        self.0.boundary_speed = self.0.boundary_speed.max(speed);
+    /// Notes what drives fluid and bodies in the last step, or at the start.
+    pub fn record_drives(&mut self, drives: &Drives) {
+        let step = self.last_step;
+        self.0.supply.add(step, drives);
+    }
+
+    /// Notes the kinetic and elastic energy of fluid and bodies at the start (J), and the speed they have or
+    /// get of it (m/s).
+    pub fn record_start(&mut self, energy: f64, speed: f64) {
+        (self.0.supply.initial, self.0.supply.initial_speed) = (Some(energy), speed);
+    }
+
+    /// Notes the errors of the last step.
+    pub fn record_step_errors(&mut self, errors: &StepErrors) {
+        self.0.step_errors.add(errors);
     }
 
     /// Time of the level before (s).
@@ -327,6 +329,7 @@ impl<const D: usize> State<D> {
             own.rates = rates;
         }
         (own.accelerations, own.contact) = (level.accelerations, level.contact);
+        own.twist_rates = level.twist_rates;
         own.step += 1;
         (own.time, own.last_step) = (level.time, level.step);
     }

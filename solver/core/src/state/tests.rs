@@ -6,8 +6,8 @@ use alewife_mesh::{
 use nalgebra::Vector3;
 
 use super::{
-    EnergyBalance, EnergyRecord, Evolving, MomentumBalance, MomentumRecord, Part,
-    PropulsionHistory, State,
+    EnergyBalance, EnergyRecord, EnergySupply, ErrorOfChange, Evolving, LoadHistory,
+    MomentumBalance, MomentumRecord, Part, PropulsionHistory, SquaredError, State, StepErrors,
 };
 use crate::body::{Pose, Twist, Wrench};
 use crate::contact::{ContactLoads, MinimumGap, Partner};
@@ -115,8 +115,21 @@ fn state() -> State<2> {
         image_shifts: vectors(4.0, 1),
         rates: points(5.0),
         accelerations: twists(6.0),
+        twist_rates: twists(6.5),
         top_speed: 9.5,
-        boundary_speed: 8.5,
+        supply: EnergySupply {
+            initial: Some(0.5),
+            initial_speed: 0.75,
+            work: 1.5,
+            given_speed: 2.5,
+            loads: vec![LoadHistory { largest: 3.5, free_fall: 4.5 }],
+            largest_gradient: 5.5,
+            gradient_speed: 6.5,
+        },
+        step_errors: StepErrors {
+            flow: SquaredError { error: 0.25, size: 8.5 },
+            ways: vec![ErrorOfChange { error: 0.125, change: 7.5 }],
+        },
         contact: ContactLoads {
             last_impulses: vec![Vector3::x()],
             impulses: vec![Vector3::y()],

@@ -42,7 +42,7 @@ pub(super) fn local_error<const D: usize>(
     let mut largest = squares.sqrt();
     for (body, new) in new.twists.iter().enumerate() {
         let (now, before) = (state.now.twists[body], state.previous.twists[body]);
-        let rate = state.accelerations[body];
+        let rate = state.twist_rates[body];
         let predicted = bdf.predict(now.to_vector(), before.to_vector(), rate.to_vector());
         for mode in stepper.problem.modes().iter() {
             let off = new.component(mode) - predicted[mode];

@@ -55,6 +55,7 @@ impl<const D: usize> StepContext<'_, D> {
             let errors = pose_errors(state, &history.step, &reached);
             error = error.max(stepper.gap_error(self.gaps(), state, &reached, &errors));
         }
+        let errors = self.step_errors(&flow.solution, &reached);
         let contact = flow
             .contact
             .after(&state.contact, |force, last| history.step.bdf.increment(force, last));
@@ -67,6 +68,7 @@ impl<const D: usize> StepContext<'_, D> {
             iterations: flow.n_systems,
             error,
             contact_error: energy.error,
+            errors,
         };
         let end = ConvergedStep { contact, solution: flow.solution, poses: reached };
         let level = self.new_level(work, configuration, end, &loads.propulsion)?;
@@ -91,12 +93,18 @@ impl<const D: usize> StepContext<'_, D> {
             stepper.path.move_mesh(work, stepper.problem, state, &poses, &history.shapes)?;
         let rates = solution.velocity.iter().zip(&history.derivative);
         let twists = solution.twists.iter().zip(&configuration.bodies.bodies);
+        let older = state.now.twists.iter().zip(&state.previous.twists);
+        let twist_rates = solution.twists.iter().zip(older).map(|(new, (now, before))| {
+            let [new, now, before] = [new, now, before].map(Twist::to_vector);
+            Twist::from_vector(&bdf.rate(new, now, before))
+        });
         let legs = legs(stepper.problem, state, &[], &poses, &solution.twists);
         Ok(NewLevel {
             time: history.step.time,
             step: bdf.step,
             rates: Some(rates.map(|(new, older)| new * bdf.next + older).collect()),
             accelerations: twists.map(|(twist, body)| acceleration(bdf, twist, body)).collect(),
+            twist_rates: twist_rates.collect(),
             nodes,
             poses,
             contact,

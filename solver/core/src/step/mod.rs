@@ -19,11 +19,13 @@ mod predict;
 mod solve;
 #[expect(clippy::module_inception, reason = "the step itself is what the room is named after")]
 mod step;
+mod step_errors;
 mod stepper;
 mod workspace;
 
 pub use error::{FlowError, StepError, at_step};
 pub use mesh_path::{MeshPath, NodePath};
 pub use newton::{SteadyFailure, SteadyFlow, SteadyTask, solve_steady};
+pub use step_errors::error_of_second_difference;
 pub use stepper::{Step, StepReport, StepResult, StopRequest, TimeStepper};
 pub use workspace::Workspace;

@@ -7,7 +7,7 @@ use super::mesh_path::MeshPath;
 use crate::case::Convection;
 use crate::contact::Law;
 use crate::coupling::{Problem, SurfaceLoads};
-use crate::state::{NewLevel, State};
+use crate::state::{NewLevel, State, StepErrors};
 use crate::time::Bdf;
 
 /// Whether a run is to end, asked between steps and within long ones; what is not yet a whole step is
@@ -75,6 +75,8 @@ pub struct StepReport {
     pub error: f64,
     /// Error of the step in the energy of bodies in contact, over what is accepted; zero without contact or inertia.
     pub contact_error: f64,
+    /// What the step leaves in flow and poses.
+    pub errors: StepErrors,
 }
 
 /// What a step leads to.

@@ -33,6 +33,18 @@ pub fn tell_cell_numbers(outcome: &RunSummary) {
     }
 }
 
+/// Prints what the steps of a run leave, as far as that is known.
+pub fn tell_step_errors(outcome: &RunSummary) {
+    let Some(errors) = outcome.step_errors else { return };
+    let parts = [("velocity", errors.velocity), ("ways", errors.ways), ("forces", errors.loads)];
+    let known = parts.into_iter().filter_map(|(name, part)| Some((name, part?)));
+    let known: Vec<String> =
+        known.map(|(name, part)| format!("{name} {:.1e} %", 100.0 * part)).collect();
+    if !known.is_empty() {
+        say(&format!("left by the steps, by estimates: {}", known.join(", ")));
+    }
+}
+
 /// Prints how the bodies ended, for a case without references.
 pub fn tell_last_values(model: &Model, outcome: &RunSummary) {
     let Some(last) = outcome.series.rows.last() else { return };

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 
-use super::results::{print_comparisons, tell_cell_numbers, tell_last_values, tell_warnings};
+use super::results::{
+    print_comparisons, tell_cell_numbers, tell_last_values, tell_step_errors, tell_warnings,
+};
 use crate::case::{CaseFile, TimeSettings, WallTime};
 use crate::cli::complete;
 use crate::cli::exit::{Exit, Failure};
@@ -155,6 +157,7 @@ fn report(plan: &RunPlan, outcome: Outcome, remedy: &str) -> Result<Exit, Failur
             }
             tell_cost(plan, &finished);
             tell_cell_numbers(&finished.summary);
+            tell_step_errors(&finished.summary);
         }
     }
     Ok(Exit::Done)

@@ -8,6 +8,7 @@ use super::points::check_points;
 use super::run_options::Options;
 use super::swept::directory_of;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::parent;
 use crate::cli::read::tell;
 use crate::cli::run::run_plan;
 use crate::cli::style::{complain, say};

@@ -29,5 +29,5 @@ pub fn read_outcome(directory: &Path) -> io::Result<RunSummary> {
     let path = directory.join(SERIES_FILE);
     let series = series_of(&path, &std::fs::read_to_string(&path).at(&path)?)?;
     let (n_dofs, steps, cycles) = (status.dofs, status.step, Vec::new());
-    Ok(RunSummary { series, timing, n_dofs, steps, cycles })
+    Ok(RunSummary { series, timing, n_dofs, steps, cycles, step_errors: None })
 }

@@ -13,7 +13,7 @@ use super::write_times::WriteTimes;
 use crate::case::{Case, TimeSettings};
 use crate::observer::system::{process, write_atomic, write_whole};
 use crate::observer::warnings::{self, Warning};
-use crate::run::{LastState, Observer, RunError, Snapshot};
+use crate::run::{LastState, Observer, RunError, Snapshot, StepErrorReport};
 use crate::step::FlowError;
 use crate::timing::{Stage, Timing, cpu_seconds};
 
@@ -82,6 +82,9 @@ pub struct Status {
     /// What the run warned of so far.
     #[serde(default)]
     pub warnings: Vec<Warning>,
+    /// What the steps so far leave, as parts of what they are in; nothing for a steady solution.
+    #[serde(default)]
+    pub step_errors: Option<StepErrorReport>,
     /// The process.
     pub pid: u32,
     /// When this was written (UTC).
@@ -147,6 +150,7 @@ impl Status {
             longest_checkpoint: None,
             is_interrupted: false,
             warnings: Vec::new(),
+            step_errors: None,
             pid: std::process::id(),
             updated_at: String::new(),
         }

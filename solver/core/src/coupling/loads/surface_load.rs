@@ -62,6 +62,45 @@ impl<const D: usize> SurfaceStress<'_, D> {
         }
     }
 
+    /// Rate at which the fluid carries kinetic energy over its density in through a boundary that goes with a frame
+    /// (m5/s3; m4/s3 planar).
+    #[must_use]
+    pub fn energy_inflow(&self, boundary: BoundaryId, frame_velocity: &Point<D>) -> f64 {
+        let Self { mesh, fields, .. } = self;
+        let mut inflow = 0.0;
+        for &facet in self.boundaries.facets_on(boundary) {
+            let facet = &mesh.facets[facet];
+            let nodes = mesh.cell(facet.cell);
+            self.rule.for_each_point(mesh, facet, |at| {
+                let nodal =
+                    nodes.iter().zip(at.phi).map(|(&node, phi)| fields.velocity[node] * *phi);
+                let velocity: Point<D> = nodal.sum();
+                let flux = (velocity - frame_velocity).dot(&at.normal_ds);
+                inflow += 0.5 * velocity.norm_squared() * (-flux).max(0.0);
+            });
+        }
+        inflow
+    }
+
+    /// Integral over a boundary of the size of the viscous stress (N).
+    #[must_use]
+    pub fn friction(&self, boundary: BoundaryId) -> f64 {
+        let Self { mesh, fields, .. } = self;
+        let mut friction = 0.0;
+        for &facet in self.boundaries.facets_on(boundary) {
+            let facet = &mesh.facets[facet];
+            let nodes = mesh.cell(facet.cell);
+            self.rule.for_each_point(mesh, facet, |at| {
+                let mut gradient = SMatrix::<f64, D, D>::zeros();
+                for (a, &node) in nodes.iter().enumerate() {
+                    gradient += fields.velocity[node] * at.grad_phi[a].transpose();
+                }
+                friction += ((gradient + gradient.transpose()) * at.normal_ds).norm();
+            });
+        }
+        self.viscosity * friction
+    }
+
     /// Force and torque about `center` of the fluid on a boundary:
     /// F = - int sigma n ds with n out of the fluid.
     #[must_use]

@@ -4,8 +4,6 @@ mod adaptive;
 mod fixed;
 mod start;
 
-use alewife_mesh::Point;
-
 use super::error::RunError;
 use super::run::Run;
 use super::simulation::Simulation;
@@ -30,15 +28,6 @@ fn step_size_factor(error: f64, most: f64) -> f64 {
     if error > 0.0 { (0.85 * error.powf(-1.0 / 3.0)).clamp(0.3, most) } else { most }
 }
 
-/// Length of the domain along a coordinate (m).
-fn extent_along<const D: usize>(nodes: &[Point<D>], axis: usize) -> f64 {
-    let [least, most] =
-        nodes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], node| {
-            [least.min(node[axis]), most.max(node[axis])]
-        });
-    most - least
-}
-
 /// No smaller step helps.
 fn step_size_underflow<const D: usize>(
     run: &Run<'_, D>,
@@ -47,7 +36,7 @@ fn step_size_underflow<const D: usize>(
 ) -> RunError {
     let Simulation { problem, state, moving_mesh, law, .. } = &run.simulation;
     let (step, time, reason) = (state.step + 1, state.time, error.to_string());
-    if let Some(trouble) = run.pace.trouble(run.simulation.fastest()) {
+    if let Some(trouble) = run.pace.trouble() {
         let advice = format!("; {trouble}; the last flow is in failure/");
         return RunError::StepSizeUnderflow { step, time, smallest, reason, advice };
     }
@@ -55,7 +44,7 @@ fn step_size_underflow<const D: usize>(
     let leap =
         smallest * state.now.twists.iter().map(|twist| twist.linear.norm()).fold(0.0, f64::max);
     // A wall that a body is driven into is nearer than the smallest step, too, in the end
-    let extent = (0..D).map(|axis| extent_along(&state.nodes, axis)).fold(0.0, f64::max);
+    let extent = run.simulation.extent();
     let nearest = moving_mesh.as_ref().zip(state.contact.minimum_gap).map(|(moving, minimum)| {
         let gaps = moving.gaps();
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];

@@ -6,7 +6,7 @@ use super::value::Value;
 use crate::body::{Twist, Wrench, on_mesh};
 use crate::case::{BodyQuantity, Case, Geometry, JointQuantity};
 use crate::coupling::{
-    BodyLoads, BodyShapes, BodyStates, JointReport, Problem, RigidBody, joint_reports,
+    BodyLoads, BodyShapes, BodyStates, JointReport, Problem, RigidBody, ShapeError, joint_reports,
 };
 use crate::run::RunError;
 use crate::run::simulation::Simulation;
@@ -105,6 +105,7 @@ pub(super) fn body_reports<const D: usize>(
                 problem.metric,
                 &on_mesh(&in_mesh[body].center),
             ) + work.system.mean_load(body, &state.now),
+            friction: stress.friction(rigid.boundary),
             contact: state.contact.wrenches[body],
             power: loads[body].power,
             recoil: rigid.deformed_at(state.time)?.map(|deformed| deformed.recoil),
@@ -117,11 +118,11 @@ pub(super) fn body_reports<const D: usize>(
 ///
 /// # Errors
 /// When a gait fails.
-pub(super) fn measure_joints<const D: usize>(
+pub(in crate::run) fn measure_joints<const D: usize>(
     problem: &Problem<D>,
     state: &State<D>,
     loads: &[BodyLoads],
-) -> Result<Vec<JointReport>, RunError> {
+) -> Result<Vec<JointReport>, ShapeError> {
     if !problem.has_joints() {
         return Ok(Vec::new());
     }

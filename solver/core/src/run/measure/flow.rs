@@ -112,9 +112,14 @@ impl FlowMeasurement {
         self.crossing.map_or(0.0, |crossing| crossing.reach * self.density_over_viscosity)
     }
 
-    /// Kinetic energy over that of all the fluid at a speed (m/s).
-    pub(in crate::run) fn energy_ratio(&self, density: f64, speed: f64) -> f64 {
-        self.kinetic_energy / (0.5 * density * speed * speed * self.volume)
+    /// Kinetic energy of the fluid (J).
+    pub(in crate::run) fn kinetic_energy(&self) -> f64 {
+        self.kinetic_energy
+    }
+
+    /// Kinetic energy of all the fluid of a density (kg/m3) at a speed (m/s).
+    pub(in crate::run) fn energy_at(&self, density: f64, speed: f64) -> f64 {
+        0.5 * density * speed * speed * self.volume
     }
 
     pub(super) fn value(&self, quantity: FlowQuantity) -> Value {

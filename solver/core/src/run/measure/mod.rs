@@ -13,7 +13,8 @@ mod value;
 
 use alewife_mesh::{Mesh, Point};
 
-use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value, measure_joints};
+pub(super) use self::bodies::measure_joints;
+use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value};
 pub(super) use self::flow::FlowMeasurement;
 use self::momentum::momentum_record;
 use self::probes::Probes;

@@ -84,6 +84,18 @@ impl<const D: usize> SavedState<D> {
         })
     }
 
+    /// The same with the quantities of all steps up to its time, of those of a run.
+    #[must_use]
+    pub(super) fn with_series(self, series: &Series) -> Self {
+        let count = series.times.iter().take_while(|time| **time <= self.state.time).count();
+        let series = Series {
+            names: series.names.clone(),
+            times: series.times[..count].to_vec(),
+            rows: series.rows[..count].to_vec(),
+        };
+        Self { series: SavedSeries::of(&series), ..self }
+    }
+
     /// Steps made.
     #[must_use]
     pub fn step(&self) -> usize {
@@ -180,6 +192,7 @@ impl<const D: usize> SavedState<D> {
             })
             && [&state.poses, &state.previous_poses].iter().all(|poses| poses.len() == n_bodies)
             && state.accelerations.len() == n_bodies
+            && state.twist_rates.len() == n_bodies
             && state.image_shifts.len() == n_bodies
             && state.contact.wrenches.len() == n_bodies
             && self.series.is_consistent()

@@ -1,7 +1,14 @@
 //! What a run looks out for: a flow that has blown up, steps too long for it, contact too weak, bodies that leave.
 
+mod blow_up;
+mod drives;
+mod force_agreement;
 mod leaving;
 mod pace;
+mod resolution;
+mod sound_state;
 mod soundness;
 
+pub(super) use force_agreement::ForceAgreement;
 pub(super) use pace::Pace;
+pub(super) use sound_state::SoundState;

@@ -1,17 +1,11 @@
-//! Whether a flow can be believed: it has not blown up, and its convection is resolved in time.
+//! Whether a flow can be believed: its convection is resolved in time, and contact keeps bodies apart.
 
-use super::pace::Pace;
 use crate::case::Convection;
-use crate::coupling::Side;
 use crate::run::RunError;
 use crate::run::measure::FlowMeasurement;
 use crate::run::run::Run;
 use crate::run::simulation::Simulation;
 use crate::step::at_step;
-
-/// Kinetic energy, over that of all the fluid at the speed of the fastest boundary so far, from which
-/// a flow has blown up: fluid in a narrow passage is faster than any boundary, but not all of it.
-const BLOWN_UP: f64 = 1e3;
 
 /// Gap over the range of contact below which its force is too weak for what presses bodies together.
 const PRESSED: f64 = 0.01;
@@ -35,21 +29,9 @@ impl<const D: usize> Run<'_, D> {
         &mut self,
         flow: &FlowMeasurement,
     ) -> Result<(), RunError> {
-        let simulation = &mut self.simulation;
-        let speed = simulation.boundary_speed();
-        simulation.state.record_boundary_speed(speed);
+        self.check_pace(flow)?;
         let Simulation { problem, state, scheme, .. } = &self.simulation;
         let (step, time, cfl) = (state.step, state.time, flow.cfl());
-        let ratio = flow.energy_ratio(problem.density, state.boundary_speed);
-        let is_driven = state.boundary_speed > 0.0 && problem.body_force.is_none();
-        if problem.has_inertia && is_driven {
-            self.pace = Pace { times: ratio.sqrt(), cell_reynolds: flow.cell_reynolds() };
-        }
-        if problem.has_inertia && is_driven && ratio > BLOWN_UP {
-            let Pace { times, cell_reynolds } = self.pace;
-            let near = self.simulation.fastest_node();
-            return Err(RunError::BlownUp { step, time, times, cfl, cell_reynolds, near });
-        }
         if let (Some(law), Some(minimum)) = (&self.simulation.law, state.contact.minimum_gap)
             && minimum.gap < PRESSED * law.range()
             && step > 0
@@ -114,31 +96,5 @@ impl<const D: usize> Run<'_, D> {
             names[1],
             state.remeshes - since
         );
-    }
-}
-
-impl<const D: usize> Simulation<D> {
-    /// Largest speed of a body's surface or of a side with a given velocity (m/s).
-    fn boundary_speed(&self) -> f64 {
-        let Self { problem, state, .. } = self;
-        let moves = |side: &Option<Side<D>>| matches!(side, None | Some(Side::Velocity { .. }));
-        let facets = state.mesh.facets.iter().filter(|facet| moves(&problem.sides[facet.boundary]));
-        let nodes = facets.flat_map(|facet| state.mesh.facet_nodes(facet));
-        nodes.map(|node| state.now.velocity[node].norm()).fold(0.0, f64::max)
-    }
-
-    /// Largest speed of the fluid over that of a boundary so far (1).
-    pub(in crate::run) fn fastest(&self) -> f64 {
-        let speeds = self.state.now.velocity.iter().map(|velocity| velocity.norm());
-        speeds.fold(0.0, f64::max) / self.state.boundary_speed
-    }
-
-    /// Where the fluid is fastest (m).
-    fn fastest_node(&self) -> Vec<f64> {
-        let Self { state, .. } = self;
-        let speeds = state.now.velocity.iter().map(|velocity| velocity.norm());
-        let fastest = speeds.enumerate().max_by(|one, other| one.1.total_cmp(&other.1));
-        let node = fastest.map(|(node, _)| alewife_mesh::NodeId::new(node));
-        node.map_or_else(Vec::new, |node| state.mesh.nodes[node].iter().copied().collect())
     }
 }

@@ -17,7 +17,7 @@ use super::workspace::Workspace;
 use crate::body::{Pose, RigidVector, Twist, rate_of_displacement};
 use crate::contact::{ContactLoads, StageContact};
 use crate::coupling::{PropulsionPower, Solution, SurfaceLoads};
-use crate::state::{NewLevel, PowerShare, PropulsionStep, State};
+use crate::state::{NewLevel, PowerShare, PropulsionStep, State, StepErrors};
 
 /// Displacement over the distance from the origin that is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -125,11 +125,17 @@ impl<const D: usize> TimeStepper<'_, D> {
         let poses = self.stage_poses(state, &stages.rates, &third, size);
         let flow = self.flow_at(work, state, &poses, third.instant(state, size), &stages.last)?;
         stages.push(&flow, &state.poses, &poses, third.part);
+        let errors = explicit_errors(&stages.rates);
+        let ways: Vec<RigidVector> = errors.iter().map(|error| error * size).collect();
         let report = StepReport {
             loads: flow.loads.clone(),
             iterations: stages.iterations,
             error: self.explicit_error(state, &poses, &stages.rates, size)?,
             contact_error: 0.0,
+            errors: StepErrors {
+                ways: self.errors_of_ways(state, &poses, &ways),
+                ..StepErrors::default()
+            },
         };
         let level = self.explicit_level(state, size, flow, poses, &stages)?;
         Ok(StepResult { level, report })
@@ -231,8 +237,9 @@ impl<const D: usize> TimeStepper<'_, D> {
         let gaps = self.path.gaps_at_time(&self.problem.bodies, time)?;
         let contact = self.with_minimum_gap(flow.contact, gaps.as_deref(), state, &poses);
         let twists = flow.solution.twists.iter().zip(&state.now.twists);
-        let accelerations = twists
-            .map(|(new, old)| Twist::from_vector(&((new.to_vector() - old.to_vector()) / size)));
+        let accelerations: Vec<Twist> = twists
+            .map(|(new, old)| Twist::from_vector(&((new.to_vector() - old.to_vector()) / size)))
+            .collect();
         let Stages { powers, motions, .. } = stages;
         let within = &motions[..STAGES.len()];
         let legs = legs(self.problem, state, within, &poses, &flow.solution.twists);
@@ -245,7 +252,8 @@ impl<const D: usize> TimeStepper<'_, D> {
         Ok(NewLevel {
             time,
             step: size,
-            accelerations: accelerations.collect(),
+            twist_rates: accelerations.clone(),
+            accelerations,
             propulsion: propulsion.collect(),
             solution: flow.solution,
             nodes: flow.nodes,
@@ -263,9 +271,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         rates: &[Vec<RigidVector>],
         size: f64,
     ) -> Result<f64, StepError> {
-        let errors: Vec<RigidVector> = (0..poses.len())
-            .map(|body| rates.iter().zip(ERROR).map(|(rate, weight)| rate[body] * weight).sum())
-            .collect();
+        let errors = explicit_errors(rates);
         // Bodies that rest have velocities of rounding, whose errors are as large as they are
         let farthest = poses.iter().map(|pose| pose.center.amax()).fold(0.0, f64::max);
         let (mut error, mut scale) = (0.0f64, ROUNDING * farthest / size);
@@ -282,4 +288,13 @@ impl<const D: usize> TimeStepper<'_, D> {
         let errors: Vec<RigidVector> = errors.into_iter().map(|error| error * size).collect();
         Ok(of_velocities.max(self.gap_error(gaps.as_deref(), state, poses, &errors)))
     }
+}
+
+/// Errors of the mean velocities of the bodies in a step, by an embedded formula.
+fn explicit_errors(rates: &[Vec<RigidVector>]) -> Vec<RigidVector> {
+    let n_bodies = rates.first().map_or(0, Vec::len);
+    let of_body = |body: usize| -> RigidVector {
+        rates.iter().zip(ERROR).map(|(rate, weight)| rate[body] * weight).sum()
+    };
+    (0..n_bodies).map(of_body).collect()
 }

@@ -1,0 +1,357 @@
+//! What drives fluid and bodies: the work done on them, and the speeds it gives by itself.
+
+use std::f64::consts::PI;
+
+use alewife_mesh::{BoundaryId, NodeId};
+
+use crate::body::{Mode, Pose, in_space};
+use crate::contact::MinimumGap;
+use crate::coupling::{
+    Drive, Joint, JointReport, Length, MeanFlowAlong, RigidBody, ShapeError, Side, SurfaceLoads,
+    Turn,
+};
+use crate::run::measure::measure_joints;
+use crate::run::simulation::Simulation;
+use crate::state::{Drives, LoadStep};
+
+/// Drag coefficient below those of all bodies that are not streamlined: it makes terminal speeds too high.
+const LOW_DRAG: f64 = 0.1;
+
+/// Radius over the radius of gyration, about that of a sphere.
+const RADIUS: f64 = 1.6;
+
+/// A body and as much fluid as it displaces, roughly: what accelerates with it.
+struct Bulk {
+    /// Mass (kg; kg/m planar).
+    mass: f64,
+    /// Radius (m).
+    radius: f64,
+}
+
+impl Bulk {
+    /// That of a body in fluid of a density (kg/m3).
+    fn new(body: &RigidBody, density: f64) -> Self {
+        let volume = body.volume.mass;
+        let gyration = body.volume.tensor.diagonal().max() / volume;
+        Self { mass: body.inertia.mass + density * volume, radius: RADIUS * gyration.sqrt() }
+    }
+}
+
+/// The largest power where it is work that is done, and not taken.
+fn supplied(power: f64) -> f64 {
+    power.max(0.0)
+}
+
+impl<const D: usize> Simulation<D> {
+    /// Notes what drives fluid and bodies in a step that has been made, with these loads of the fluid.
+    ///
+    /// # Errors
+    /// When a gait gives its body no shape.
+    pub(in crate::run) fn record_drives(&mut self, loads: &SurfaceLoads) -> Result<(), ShapeError> {
+        if !self.problem.has_inertia {
+            return Ok(());
+        }
+        let drives = Drives {
+            // By the rule of the implicit scheme, for which the balance of energy is an inequality
+            work: self.state.last_step * self.power(loads)?,
+            given_speed: self.given_speed(),
+            loads: self.load_steps(),
+            gradient: self.gradient(),
+        };
+        self.state.record_drives(&drives);
+        Ok(())
+    }
+
+    /// Rate of work on fluid and bodies (W), without what is taken from them again.
+    fn power(&self, loads: &SurfaceLoads) -> Result<f64, ShapeError> {
+        let Self { problem, state, work, .. } = self;
+        let mut power = supplied(loads.sides_power) + self.energy_inflow();
+        let mean_flow = work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now);
+        power += mean_flow.map_or(0.0, |report| supplied(report.power));
+        for (index, body) in problem.bodies.iter().enumerate() {
+            let (twist, pose) = (state.now.twists[index].to_vector(), &state.poses[index]);
+            let fluid = loads.bodies[index];
+            if self.is_counted(index) {
+                power += supplied(body.external(state.time, pose).dot(&twist));
+                // That of its surface on the fluid beside its motion as a whole
+                if body.gait.is_some() {
+                    power += supplied(fluid.power + fluid.load.to_vector().dot(&twist));
+                }
+            } else {
+                power += supplied(fluid.power);
+                power += supplied(-state.contact.wrenches[index].to_vector().dot(&twist));
+            }
+        }
+        for joint in measure_joints(problem, state, &loads.bodies)? {
+            if self.is_counted(joint.child)
+                && let Some(hinge) = &problem.bodies[joint.child].joint
+            {
+                power += supplied(actuator_power(hinge, &joint, state.time));
+            }
+        }
+        Ok(power)
+    }
+
+    /// Kinetic energy that enters through the sides (W).
+    fn energy_inflow(&self) -> f64 {
+        let Self { problem, state, work, .. } = self;
+        if !problem.has_convection {
+            return 0.0;
+        }
+        let stress = work.system.surface_stress(problem, &state.mesh, &state.now);
+        let frame = problem.frame_velocity(&state.now.twists);
+        let sides = problem.sides.iter().enumerate().filter(|(_, side)| {
+            matches!(
+                side,
+                Some(Side::Velocity { is_wall: false, .. } | Side::DoNothing | Side::TractionFree)
+            )
+        });
+        let inflow = |(side, _): (usize, &Option<Side<D>>)| {
+            problem.density * stress.energy_inflow(BoundaryId::new(side), &frame)
+        };
+        sides.map(inflow).sum()
+    }
+
+    /// Whether what acts on a body is known, so that its energy is counted: where it is moved, or deforms,
+    /// or hangs on such a body, only its work on the fluid is.
+    pub(in crate::run) fn is_counted(&self, body: usize) -> bool {
+        let bodies = &self.problem.bodies;
+        let root = |mut body: usize| {
+            while let Some(joint) = &bodies[body].joint {
+                body = joint.parent;
+            }
+            body
+        };
+        let root_of_body = root(body);
+        let deforms = |other: usize| bodies[other].shape.is_some() && root(other) == root_of_body;
+        let is_moved = |drive: &Drive| matches!(drive, Drive::Given(_));
+        !bodies[root_of_body].drives.iter().any(is_moved) && !(0..bodies.len()).any(deforms)
+    }
+
+    /// The largest speed that is given (m/s).
+    fn given_speed(&self) -> f64 {
+        let Self { problem, state, .. } = self;
+        let mean = |along: MeanFlowAlong| match along {
+            MeanFlowAlong::Velocity(speed) => speed.abs(),
+            _ => 0.0,
+        };
+        let mean_flow = problem.mean_flow_at(state.time).along.map(mean);
+        let bodies = problem.bodies.iter().enumerate().map(|(index, body)| {
+            let radius = Bulk::new(body, problem.density).radius;
+            let given = |mode: Mode| {
+                let length = if mode.is_rotation() { radius } else { 1.0 };
+                length * body.drive(mode).given(state.time).unwrap_or(0.0).abs()
+            };
+            let moved: f64 = Mode::ALL.into_iter().map(given).sum();
+            let stroke =
+                body.joint.as_ref().map_or(0.0, |joint| stroke_speed(joint, radius, state.time));
+            moved + stroke + self.surface_speed(index)
+        });
+        let given = bodies.chain(mean_flow).fold(0.0, f64::max);
+        given.max(self.side_speed())
+    }
+
+    /// Largest speed of the surface of a body relative to it (m/s).
+    fn surface_speed(&self, body: usize) -> f64 {
+        let Self { problem, state, .. } = self;
+        let rigid = &problem.bodies[body];
+        if rigid.gait.is_none() && rigid.shape.is_none() {
+            return 0.0;
+        }
+        let Pose { center, .. } = state.in_mesh(&state.poses)[body];
+        let twist = state.now.twists[body];
+        let speed = |node: NodeId| {
+            let lever = in_space(&state.mesh.nodes[node]) - center;
+            (in_space(&state.now.velocity[node]) - twist.velocity_at(&lever)).norm()
+        };
+        self.nodes_on(|boundary| boundary == rigid.boundary).map(speed).fold(0.0, f64::max)
+    }
+
+    /// Largest speed of the sides with a given velocity (m/s).
+    fn side_speed(&self) -> f64 {
+        let sides = &self.problem.sides;
+        let is_given =
+            |boundary: BoundaryId| matches!(sides[boundary], Some(Side::Velocity { .. }));
+        let speed = |node: NodeId| self.state.now.velocity[node].norm();
+        self.nodes_on(is_given).map(speed).fold(0.0, f64::max)
+    }
+
+    /// The nodes on some boundaries, those of several facets more than once.
+    fn nodes_on(&self, counts: impl Fn(BoundaryId) -> bool) -> impl Iterator<Item = NodeId> {
+        let mesh = &self.state.mesh;
+        let facets = mesh.facets.iter().filter(move |facet| counts(facet.boundary));
+        facets.flat_map(|facet| mesh.facet_nodes(facet))
+    }
+
+    /// Loads on the bodies, and what they do by themselves.
+    fn load_steps(&self) -> Vec<LoadStep> {
+        let Self { problem, state, .. } = self;
+        let step = |(body, pose): (&RigidBody, &Pose)| {
+            let Bulk { mass, radius } = Bulk::new(body, problem.density);
+            let external = body.external(state.time, pose);
+            let [force, torque] =
+                [0, 3].map(|first| external.fixed_rows::<3>(first).into_owned().norm());
+            let motor =
+                body.joint.as_ref().map_or(0.0, |joint| motor_load(joint, radius, state.time));
+            let load = force + torque / radius + motor;
+            LoadStep { load, acceleration: load / mass }
+        };
+        problem.bodies.iter().zip(&state.poses).map(step).collect()
+    }
+
+    /// Force per volume on the fluid, over its density (m/s2).
+    fn gradient(&self) -> f64 {
+        let mean_flow = self.problem.mean_flow_at(self.state.time);
+        let gradient = |along: MeanFlowAlong| match along {
+            MeanFlowAlong::PressureGradient(gradient) => gradient,
+            _ => 0.0,
+        };
+        let force = mean_flow.along.map(gradient).map(f64::abs).into_iter().sum::<f64>();
+        (force + mean_flow.body_force.norm()) / self.problem.density
+    }
+
+    /// The speed that is given, or that what drives gives by itself to a fluid or a body (m/s): loads by free fall, or
+    /// by terminal speeds where those are lower; of a steady flow by these alone.
+    pub(in crate::run) fn drive_speed(&self, is_steady: bool) -> f64 {
+        let Self { problem, state, .. } = self;
+        let supply = &state.supply;
+        let density = problem.density;
+        let bodies = problem.bodies.iter().zip(&supply.loads).map(|(body, history)| {
+            let radius = Bulk::new(body, density).radius;
+            let area = if D == 2 && !problem.metric.is_revolved() {
+                2.0 * radius
+            } else {
+                PI * radius * radius
+            };
+            let slow = history.largest / (2.0 * PI * problem.viscosity * area / radius);
+            let fast = (2.0 * history.largest / (LOW_DRAG * density * area)).sqrt();
+            let terminal = slow.min(fast);
+            if is_steady { terminal } else { terminal.min(history.free_fall) }
+        });
+        let loads = bodies.fold(0.0, f64::max);
+        // Between walls as far apart as the domain is long
+        let extent = self.extent();
+        let viscous = supply.largest_gradient * density * extent * extent / problem.viscosity;
+        let gradient = if is_steady { viscous } else { viscous.min(supply.gradient_speed) };
+        supply.given_speed + loads + gradient + supply.initial_speed
+    }
+
+    /// The speed of fluid and bodies (m/s), and that which an energy (J) gives the lightest body.
+    pub(super) fn start_speed(&self, energy: f64) -> f64 {
+        let Self { problem, state, .. } = self;
+        let masses = problem.bodies.iter().map(|body| Bulk::new(body, problem.density).mass);
+        let lightest = masses.fold(f64::INFINITY, f64::min);
+        state.now.top_speed() + (2.0 * energy / lightest).sqrt()
+    }
+
+    /// Kinetic energy of the bodies that are counted (J).
+    pub(super) fn kinetic_energy_of_bodies(&self) -> f64 {
+        let Self { problem, state, .. } = self;
+        let of_body = |(index, body): (usize, &RigidBody)| {
+            body.inertia.kinetic_energy(&state.poses[index], &state.now.twists[index])
+        };
+        let bodies = problem.bodies.iter().enumerate();
+        bodies.filter(|(index, _)| self.is_counted(*index)).map(of_body).sum()
+    }
+
+    /// Energy of the springs of bodies and joints that are counted (J).
+    ///
+    /// # Errors
+    /// When a gait gives its body no shape.
+    pub(super) fn elastic_energy(&self) -> Result<f64, ShapeError> {
+        let Self { problem, state, .. } = self;
+        let mut energy = 0.0;
+        for (index, body) in problem.bodies.iter().enumerate() {
+            if !self.is_counted(index) {
+                continue;
+            }
+            if let Some(spring) = &body.spring {
+                let way = state.poses[index].displacement_from(&spring.rest);
+                energy += 0.5 * spring.stiffness.component_mul(&way).dot(&way);
+            }
+        }
+        let no_loads = SurfaceLoads::none(problem.bodies.len()).bodies;
+        for joint in measure_joints(problem, state, &no_loads)? {
+            if self.is_counted(joint.child)
+                && let Some(hinge) = &problem.bodies[joint.child].joint
+            {
+                energy += elastic_energy(hinge, joint.coordinate);
+            }
+        }
+        Ok(energy)
+    }
+
+    /// Energy of contact at the start (J): of every body as of the pair with the smallest gap.
+    pub(in crate::run) fn contact_energy(&self) -> f64 {
+        let Self { problem, state, law, .. } = self;
+        match (law, state.contact.minimum_gap) {
+            (Some(law), Some(MinimumGap { gap, .. })) if gap > 0.0 => {
+                problem.bodies.len() as f64 * law.energy(gap)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Largest speed of a body as a whole (m/s).
+    pub(in crate::run) fn fastest_body(&self) -> f64 {
+        let Self { problem, state, .. } = self;
+        let speed = |(body, twist): (&RigidBody, &crate::body::Twist)| {
+            twist.linear.norm() + twist.angular.norm() * Bulk::new(body, problem.density).radius
+        };
+        problem.bodies.iter().zip(&state.now.twists).map(speed).fold(0.0, f64::max)
+    }
+}
+
+/// Rate of work (W) of what moves a joint: a stroke or a motor, without spring and damper.
+fn actuator_power(joint: &Joint, report: &JointReport, time: f64) -> f64 {
+    let law = match (&joint.arm, &joint.turn) {
+        (Some(arm), _) => match &arm.length {
+            Length::Given(_) => return report.power,
+            Length::Free(law) => law,
+        },
+        (None, Turn::Given { .. }) => return report.power,
+        (None, Turn::Free(pivot)) => &pivot.law,
+    };
+    law.motor.as_ref().map_or(0.0, |motor| motor(time)) * report.rate
+}
+
+/// Energy (J) of the spring of a joint.
+fn elastic_energy(joint: &Joint, coordinate: f64) -> f64 {
+    let law = match (&joint.arm, &joint.turn) {
+        (Some(arm), _) => match &arm.length {
+            Length::Given(_) => return 0.0,
+            Length::Free(law) => law,
+        },
+        (None, Turn::Given { .. }) => return 0.0,
+        (None, Turn::Free(pivot)) => &pivot.law,
+    };
+    0.5 * law.stiffness * (coordinate - law.rest).powi(2)
+}
+
+/// The speed a stroke gives the far end of a body of a radius (m/s).
+fn stroke_speed(joint: &Joint, radius: f64, time: f64) -> f64 {
+    let arm = joint.arm.as_ref().map_or(0.0, |arm| match &arm.length {
+        Length::Given(length) => length(time)[1].abs(),
+        Length::Free(_) => 0.0,
+    });
+    let turn = match &joint.turn {
+        Turn::Given { angle, .. } => angle(time)[1].abs() * 2.0 * (joint.on_child.norm() + radius),
+        Turn::Free(_) => 0.0,
+    };
+    arm + turn
+}
+
+/// The force of a motor (N), of a torque that at the radius of the body.
+fn motor_load(joint: &Joint, radius: f64, time: f64) -> f64 {
+    let load =
+        |law: &crate::coupling::JointLaw| law.motor.as_ref().map_or(0.0, |motor| motor(time).abs());
+    let arm = joint.arm.as_ref().map_or(0.0, |arm| match &arm.length {
+        Length::Free(law) => load(law),
+        Length::Given(_) => 0.0,
+    });
+    let turn = match &joint.turn {
+        Turn::Free(pivot) => load(&pivot.law) / radius,
+        Turn::Given { .. } => 0.0,
+    };
+    arm + turn
+}
