@@ -4,6 +4,7 @@
 mod ale;
 mod bodies;
 mod contact;
+mod rebound;
 mod remesh;
 mod renumbered;
 mod resume;

@@ -74,13 +74,13 @@ impl StepEnergy<'_> {
         let [before, stored] = pairs.each_ref().map(|pairs| self.stored(pairs));
         let impact: f64 = touching.iter().filter_map(|pair| self.impact(pair)).sum();
         let involved = self.involved(touching);
-        let inertia = involved.iter().any(|&body| self.bodies[body].inertia != Matrix6::zeros());
-        if !inertia {
+        if involved.iter().all(|&body| self.bodies[body].inertia == Matrix6::zeros()) {
             return ContactEnergy { stored, ..ContactEnergy::default() };
         }
-        let share = self.inertial_share(&involved);
-        let potential = share * (self.work_of_contact(&pairs) + stored - before);
+        let [inertia, contact] = self.shares(&involved, &pairs);
+        let potential = inertia * (self.work_of_contact(&pairs) + stored - before);
         let kinetic: f64 = involved.iter().map(|&body| self.bodies[body].kinetic_defect()).sum();
+        let kinetic = contact * kinetic;
         let others: f64 = involved.iter().map(|&body| self.other_forces(body)).sum();
         let scale = impact + before + range * others;
         let made = potential + kinetic;
@@ -134,15 +134,20 @@ impl StepEnergy<'_> {
         bodies
     }
 
-    /// Part of the loads of contact at the end of the step that changes velocities; the rest balances other forces.
-    fn inertial_share(&self, involved: &[usize]) -> f64 {
-        let loads = involved.iter().map(|&body| self.loads.wrenches[body].force.norm());
-        let loads: f64 = loads.sum();
+    /// Part of the loads of contact at the end of the step that changes velocities, where the rest balances other forces;
+    /// and part of what changes velocities that is contact, where the rest is a film.
+    fn shares(&self, involved: &[usize], pairs: &[Vec<ContactPair>; 2]) -> [f64; 2] {
+        let at_end = involved.iter().map(|&body| self.loads.wrenches[body].force.norm());
+        let at_end: f64 = at_end.sum();
+        let force = |pair: &ContactPair| pair.weight * self.law.force(pair.gap);
+        let largest = at_end.max(pairs[0].iter().map(force).sum());
         let rates = involved.iter().map(|&body| {
             let BodyInStep { inertia, accelerations, .. } = &self.bodies[body];
             (inertia * accelerations[1].to_vector()).fixed_rows::<3>(0).norm()
         });
-        if loads > 0.0 { (rates.sum::<f64>() / loads).min(1.0) } else { 1.0 }
+        let rate: f64 = rates.sum();
+        let part = |of: f64, whole: f64| if whole > 0.0 { (of / whole).min(1.0) } else { 1.0 };
+        [part(rate, at_end), part(largest, rate)]
     }
 
     /// All other forces on a body at the end of the step (N).
