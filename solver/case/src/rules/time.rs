@@ -60,7 +60,7 @@ fn adaptive_steps(findings: &mut Findings<'_>, unsteady: &Unsteady, adaptive: &A
         findings.error(
             "time.unsteady.scheme",
             "the error of a step is known for the schemes `bdf2` and `rk3` only".to_owned(),
-            "write scheme = \"bdf2\", or leave [time.unsteady.adaptive] out",
+            "write scheme = \"bdf2\", or give time.unsteady.step and leave [time.unsteady.adaptive] out",
         );
     }
     let step = unsteady.step;

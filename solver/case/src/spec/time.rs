@@ -3,7 +3,7 @@
 #[cfg(test)]
 use crate::spec::number::{Fraction, Positive};
 use alewife_mesh::whole;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 #[cfg(test)]
 use std::num::NonZeroUsize;
 
@@ -15,7 +15,7 @@ pub enum TimeSettings {
     /// Steady flow, or the instantaneous flow of the `stokes` model.
     Steady(Steady),
     /// An unsteady run, by time steps.
-    Unsteady(Unsteady),
+    Unsteady(#[serde(deserialize_with = "with_steps")] Unsteady),
 }
 
 /// `[time.steady]`: Newton's method, with continuation in the Reynolds number when it stalls.
@@ -38,7 +38,9 @@ pub struct Steady {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Unsteady {
-    /// Step (s); the first one where steps are adaptive.
+    /// Step (s); the first one where steps are adaptive, which they are where it is absent: it is a thousandth of the
+    /// run then.
+    #[serde(default = "no_step")]
     #[cfg_attr(test, schemars(with = "Positive"))]
     pub step: f64,
     /// End (s).
@@ -53,7 +55,7 @@ pub struct Unsteady {
     /// Where the run starts.
     #[serde(default)]
     pub initial: Initial,
-    /// Steps chosen by the error they make; fixed steps if absent.
+    /// Steps chosen by the error they make; fixed steps if absent beside `step`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<Adaptive>,
     /// What ends the run before `end`.
@@ -132,6 +134,18 @@ pub struct Adaptive {
     pub gap: f64,
 }
 
+impl Default for Adaptive {
+    fn default() -> Self {
+        Self {
+            tolerance: default_step_tolerance(),
+            largest: None,
+            smallest: None,
+            cfl: default_cfl(),
+            gap: default_gap_part(),
+        }
+    }
+}
+
 /// Time scheme.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -176,6 +190,24 @@ pub enum Initial {
     Stokes,
 }
 
+/// A run without a step takes steps by their error.
+fn with_steps<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Unsteady, D::Error> {
+    let mut unsteady = Unsteady::deserialize(deserializer)?;
+    if unsteady.step.is_nan() {
+        unsteady.step = FIRST_STEP * unsteady.end;
+        unsteady.adaptive.get_or_insert_default();
+    }
+    Ok(unsteady)
+}
+
+/// The first step, over the time of the run.
+const FIRST_STEP: f64 = 1e-3;
+
+/// Stands for a step that is absent until the end is known.
+fn no_step() -> f64 {
+    f64::NAN
+}
+
 fn default_step_tolerance() -> f64 {
     1e-3
 }
@@ -194,4 +226,40 @@ fn default_tolerance() -> f64 {
 
 fn default_iterations() -> usize {
     25
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Case;
+
+    /// The settings of a case whose table has these keys.
+    fn unsteady(keys: &str) -> Unsteady {
+        let text = format!(
+            "title = 't'
+geometry = 'planar'
+fluid = {{ model = 'stokes', viscosity = 1.0 }}
+domain.channel = {{ length = 8.0, height = 4.0 }}
+boundary = {{ left.parabolic.peak = 1.0, right = 'do-nothing', bottom = 'no-slip', top = 'no-slip' }}
+mesh = {{ size = 0.3 }}
+time.unsteady = {{ {keys} }}
+body = [{{ name = 'b', shape.disc.radius = 0.5, center = [2.0, 2.0], motion = 'held' }}]
+"
+        );
+        let file = Case::parse("t.toml", &text, &[]).unwrap();
+        match &file.case().time {
+            TimeSettings::Unsteady(unsteady) => unsteady.clone(),
+            TimeSettings::Steady(_) => panic!("it is unsteady"),
+        }
+    }
+
+    #[test]
+    fn steps_are_adaptive_where_none_is_given() {
+        let own = unsteady("end = 2.0");
+        assert_eq!((own.step, own.adaptive), (2e-3, Some(Adaptive::default())));
+        let own = unsteady("end = 2.0, adaptive.tolerance = 1e-4");
+        assert_eq!(own.adaptive.map(|adaptive| adaptive.tolerance), Some(1e-4));
+        let own = unsteady("end = 2.0, step = 0.1");
+        assert_eq!((own.step, own.adaptive), (0.1, None));
+    }
 }

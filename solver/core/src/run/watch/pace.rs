@@ -4,7 +4,7 @@ use crate::run::Excess;
 
 /// Energy over that of the start and the work done since from which a flow has blown up. The scheme keeps the balance as
 /// an inequality, with an energy of two levels that is at least half of that of the last one; in the shipped cases with
-/// inertia the largest was 0.998.
+/// inertia that `validate --quick` runs the largest was 0.998.
 const TOO_MUCH_ENERGY: f64 = 2.5;
 
 /// Root mean square of the velocity over the speed of what drives it, from which a flow has blown up: fluid in a

@@ -5,7 +5,7 @@ use crate::run::run::Run;
 use crate::run::snapshot::BodyReport;
 
 /// Difference of the force by the integral of the stress from that by the residual, over it, above which cells are too large.
-/// In the shipped cases it is 0.024 at most. Of a sphere at Reynolds number 1000 it was 0.08, 0.08, 0.05, 0.002 with edges of
+/// In the cases of `validate --quick` it is 0.024 at most. Of a sphere at Reynolds number 1000 it was 0.08, 0.08, 0.05, 0.002 with edges of
 /// 0.19, 0.1, 0.05 and 0.025 diameters, and the force was wrong by 36, 22, 5 and 0.1 %.
 const NOTABLE: f64 = 0.04;
 
