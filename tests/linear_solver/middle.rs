@@ -91,7 +91,7 @@ const RUNS: [Run<'_>; 15] = [
     Run {
         member: "drafting-kissing-tumbling",
         settings: &["mesh.scale=2", "body.0.center=[0.999, 4.7525]"],
-        steps: 6,
+        steps: 10,
         shows: is_in_contact,
     },
     // A mean flow through a periodic domain

@@ -1,20 +1,15 @@
 //! Checksums of the cases of points: which point a run directory is of, wherever it lies.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::thread;
 
 use serde_json::Value;
 
-use super::failure::PointFailure;
-use super::plan::Plan;
 use crate::case::{Case, CaseError, Sweep, collect_keys};
 
 /// Tables and keys of a case at its top that change nothing of what is computed.
 pub(super) const IRRELEVANT: [&str; 6] =
     ["title", "description", "output", "quick", "reference", "variant"];
-/// Code of a point whose directory holds the run of another case: that of a wrong case.
-const BAD_CASE: u8 = 65;
 
 /// All keys of a case that decide what is computed, by their paths.
 pub(super) fn keys_of(case: &Value) -> BTreeMap<String, String> {
@@ -30,7 +25,7 @@ pub(super) fn keys_of(case: &Value) -> BTreeMap<String, String> {
 }
 
 /// The checksum of what is computed by a case, from its text; nothing where that is no TOML.
-fn hash_of(text: &str) -> Option<String> {
+pub(super) fn hash_of(text: &str) -> Option<String> {
     let keys = keys_of(&toml::from_str(text).ok()?);
     let mut hasher = crc32fast::Hasher::new();
     for (key, value) in keys {
@@ -62,27 +57,4 @@ pub fn hashes_of(sweep: &Sweep) -> Result<Vec<String>, CaseError> {
             .flat_map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
             .collect()
     })
-}
-
-impl Plan {
-    /// What is wrong where the directory of a point holds the run of another case; nothing where it does not, or no
-    /// run, or the plan was written before checksums were.
-    #[must_use]
-    pub fn misplaced(&self, run: &Path, index: usize) -> Option<PointFailure> {
-        let wanted = self.cases.get(index).filter(|hash| !hash.is_empty())?;
-        let text = std::fs::read_to_string(run.join("case.toml")).ok()?;
-        let found = hash_of(&text);
-        if found.as_ref() == Some(wanted) {
-            return None;
-        }
-        let whose = match self.cases.iter().position(|hash| Some(hash) == found.as_ref()) {
-            Some(other) => format!("that of point {}", other + 1),
-            None => "of no point of this sweep".to_owned(),
-        };
-        let reason = format!(
-            "{} holds the run of another case, {whose}: put it back, or move it away and run the sweep again",
-            run.display()
-        );
-        Some(PointFailure { is_of_another_case: true, ..PointFailure::new(Some(BAD_CASE), reason) })
-    }
 }

@@ -14,6 +14,7 @@ mod children;
 mod collect;
 mod directory;
 mod failure;
+mod misplaced;
 mod plan;
 mod point_state;
 mod script;

@@ -2,6 +2,7 @@
 
 use super::directory::SweepDirectory;
 use super::failure::PointFailure;
+use super::misplaced::misplaced;
 use crate::observer::{RunLock, RunState, Status};
 
 /// Where a point stands.
@@ -73,7 +74,7 @@ pub fn stand(directory: &SweepDirectory, index: usize) -> Stand {
 pub fn stand_of_own(directory: &SweepDirectory, index: usize) -> Stand {
     let path = directory.point(index);
     let status = Status::read(&path).ok();
-    if let Some(failure) = directory.plan().misplaced(&path, index) {
+    if let Some(failure) = misplaced(directory.plan(), &path, index) {
         return Stand { state: PointState::Failed, status, failure: Some(failure) };
     }
     let mut failure = PointFailure::read(directory, index);

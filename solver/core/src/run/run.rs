@@ -52,9 +52,9 @@ where
     let requests: Vec<StopRequest> =
         observers.iter().filter_map(|observer| observer.stop_request()).collect();
     let stop: StopRequest = Arc::new(move || requests.iter().any(|request| request()));
-    let from = saved.map_or((0, 0.0), |saved| (saved.step(), saved.time()));
+    let (step, time) = saved.map_or((0, 0.0), |saved| (saved.step(), saved.time()));
     let prepared = interrupt::hearing(Arc::clone(&stop), || prepare(model, saved));
-    let Prepared { mut simulation, measure } = match meshed(prepared, from) {
+    let Prepared { mut simulation, measure } = match meshed(prepared, step, time) {
         Ok(prepared) => prepared,
         Err(error) => {
             notify_all(observers, &error, None);
@@ -88,7 +88,7 @@ where
         cycles: Vec::new(),
     };
     let made = interrupt::hearing(Arc::clone(&stop), || run.make(saved.is_some()));
-    let result = meshed(made, (run.simulation.state.step, run.simulation.state.time));
+    let result = meshed(made, run.simulation.state.step, run.simulation.state.time);
     if let Err(error) = &result {
         run.notify_of_failure(error);
     }
@@ -108,7 +108,7 @@ where
 
 /// What work came to in which meshing hears a request to stop; where it was ended, the run is stopped at a step and
 /// its time (s).
-fn meshed<R>(heard: Heard<Result<R, RunError>>, (step, time): (usize, f64)) -> Result<R, RunError> {
+fn meshed<R>(heard: Heard<Result<R, RunError>>, step: usize, time: f64) -> Result<R, RunError> {
     match heard.result {
         Err(_) if heard.was_ended => Err(FlowError::Stopped { step, time }.into()),
         result => result,

@@ -6,7 +6,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use super::found::Found;
-use super::run::Known;
+use super::known::Known;
 use crate::observer::{FAILURE_FOLDER, Frame, frames};
 
 /// The list of all.

@@ -2,6 +2,7 @@
 
 mod fields;
 mod found;
+mod known;
 mod records;
 mod run;
 mod states;

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::found::Found;
-use super::run::Known;
+use super::known::Known;
 use crate::case::Cadence;
 use crate::observer::read_messages;
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::found::Found;
+use super::known::Known;
 use super::{fields, records, states};
 use crate::case::{Cadence, Case, TimeSettings};
 use crate::observer::{
@@ -14,34 +15,6 @@ use crate::run::Series;
 
 /// Part of the end of a run by which its last time may differ for rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// What is known of a run from its texts.
-pub struct Known {
-    /// Its case.
-    pub case: Option<Case>,
-    /// Where it stands.
-    pub status: Option<Status>,
-    /// Its legs.
-    pub provenance: Option<Provenance>,
-    /// Its series, where it writes one.
-    pub series: Option<Series>,
-    /// Whether a process writes to it: what it adds meanwhile is not wrong.
-    pub is_under_way: bool,
-}
-
-impl Known {
-    /// Whether it came to its end, and nothing is added.
-    pub fn is_finished(&self) -> bool {
-        let state = self.status.as_ref().map(|status| status.state);
-        !self.is_under_way && state == Some(RunState::Finished)
-    }
-
-    /// Whether a checksum is that of the case of one of its legs.
-    pub fn is_of_a_leg(&self, hash: &str) -> bool {
-        let provenance = self.provenance.as_ref();
-        provenance.is_none_or(|found| found.legs.iter().any(|leg| leg.origin.case_hash == hash))
-    }
-}
 
 /// Looks at the run in a directory.
 pub fn verify(directory: &Path) -> Found {

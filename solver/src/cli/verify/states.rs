@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::found::Found;
-use super::run::Known;
+use super::known::Known;
 use crate::case::Case;
 use crate::observer::{FAILURE_STATE, checkpoints, read_state};
 use crate::run::{SavedState, Series};

@@ -13,7 +13,7 @@ use tungstenite::http::{HeaderValue, StatusCode};
 use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Bytes, Error, Message, WebSocket};
 
-use super::Host;
+use super::host::Host;
 use super::hub::{LiveMessage, Shared};
 
 /// Protocols that are spoken; what is used of them is the same in both.

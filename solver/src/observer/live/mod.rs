@@ -4,18 +4,19 @@
 //! length; each client has a thread of its own, and one that is slow misses messages.
 
 mod client;
+mod host;
 mod hub;
 mod visitors;
 
 use std::io;
 use std::net::{SocketAddr, TcpListener};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use host::Host;
 use hub::Shared;
-use visitors::Visitors;
 
 pub use hub::LiveChannel;
 
@@ -29,16 +30,6 @@ const PAUSE: Duration = Duration::from_millis(10);
 const PENALTY: Duration = Duration::from_millis(250);
 /// Longest time for the last messages after the end of a run.
 const FAREWELL: Duration = Duration::from_millis(500);
-
-/// What is the same for all clients.
-#[derive(Debug)]
-pub struct Host {
-    /// What viewers show.
-    name: String,
-    visitors: Visitors,
-    /// Whether somebody was refused, which is told once.
-    has_refused: AtomicBool,
-}
 
 /// Serves the messages of one run.
 #[derive(Debug)]
@@ -58,9 +49,7 @@ impl LiveServer {
         listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
         let shared = Arc::new(Shared::default());
-        let visitors = Visitors::new(address, origins);
-        let (name, has_refused) = (name.to_owned(), AtomicBool::new(false));
-        let host = Arc::new(Host { name, visitors, has_refused });
+        let host = Arc::new(Host::new(address, name, origins));
         let own = Arc::clone(&shared);
         thread::Builder::new().name("live".to_owned()).spawn(move || {
             accept_clients(&listener, &own, &host);

@@ -1,12 +1,10 @@
-//! The marker by which a directory is known as that of a run, and what else may be where one begins.
+//! The marker by which a directory is known as that of a run.
 
 use std::fs;
 use std::io;
 use std::path::Path;
 
-use super::run_directory_error::RunDirectoryError;
-use super::run_lock::LOCK_FILE;
-use crate::observer::system::{AtPath, UNFINISHED, write_whole};
+use crate::observer::system::write_whole;
 
 /// The file by which a run directory is known.
 pub const MARKER_FILE: &str = ".alewife-run";
@@ -24,21 +22,4 @@ pub fn is_a_run(path: &Path) -> bool {
 /// Makes a directory that of a run.
 pub fn mark(path: &Path) -> io::Result<()> {
     write_whole(&path.join(MARKER_FILE), MARKER.as_bytes())
-}
-
-/// Refuses a directory with files of others. The lock and files that are not whole are all that a process leaves
-/// which is killed before the marker is there.
-pub fn check_is_for_runs(path: &Path) -> Result<(), RunDirectoryError> {
-    if is_a_run(path) {
-        return Ok(());
-    }
-    for entry in fs::read_dir(path).at(path)? {
-        let name = entry.at(path)?.file_name();
-        let is_ours = name == LOCK_FILE || name.to_string_lossy().starts_with(UNFINISHED);
-        // Another process may have begun a run meanwhile
-        if !is_ours && !is_a_run(path) {
-            return Err(RunDirectoryError::NotARun { path: path.to_owned() });
-        }
-    }
-    Ok(())
 }

@@ -1,5 +1,6 @@
 //! The directory of a run: who holds it, what it says of the run and of its past, and how that is read back.
 
+mod beginning;
 mod bodies;
 pub(super) mod checkpoint_list;
 mod history;

@@ -4,9 +4,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::beginning::check_is_for_runs;
 use super::bodies;
 use super::checkpoint_list::{self, REQUEST, checkpoints};
-use super::marker::{check_is_for_runs, is_a_run, mark};
+use super::marker::{is_a_run, mark};
 use super::provenance::{Origin, Point, Provenance};
 use super::run_directory_error::RunDirectoryError;
 use super::run_lock::{LockError, RunLock};
