@@ -154,7 +154,7 @@ fn a_companion_that_cannot_be_is_told_and_the_value_stays() {
     assert!(page.contains("| none: a mesh file gives its sides, which a companion would share |"));
     assert_eq!(json["comparisons"][0]["evidence"], "confirmed");
     assert!(page.contains("**t.** A channel.\n"), "{page}");
-    assert!(page.contains("|  | a.pressure | 8 |  | 8 |  | exact | "), "{page}");
+    assert!(page.contains("|  | a.pressure | 8 | - | 8 | - | exact | "), "{page}");
 }
 
 /// How many values that are known exactly differ from them by no more than their uncertainty, and of how many.

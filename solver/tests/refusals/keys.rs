@@ -98,7 +98,7 @@ fn what_a_missing_key_may_hold_is_told() {
         "",
         &["missing key `viscosity`", "`viscosity = ...` there, a number"],
     );
-    refused("[time.steady]", "[time.unsteady]\nend = 1.0", &["`step = ...` there, a number"]);
+    refused("[time.steady]", "[time.unsteady]\nstep = 0.1", &["`end = ...` there, a number"]);
     refused(
         "shape = { disc = { radius = 0.05 } }",
         "",
