@@ -123,7 +123,7 @@ fn strong_drives_alone_do_not_end_a_run() {
             spring = {{ stiffness = [{}, 0.0] }}
             motion = "free"
             "#,
-            (density + 0.5) * 0.5236
+            (density + 0.5) * std::f64::consts::FRAC_PI_6
         )
     };
     // A light body is dominated by its added mass, and a heavy one by its own

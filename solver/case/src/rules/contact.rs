@@ -47,7 +47,7 @@ fn check_impact(findings: &mut Findings<'_>, contact: &Option<ContactSpec>) {
         return;
     };
     let gap = contact.gap_of_energy(impact.energy);
-    if !(gap < LEAST_GAP * contact.range()) {
+    if gap.is_nan() || gap >= LEAST_GAP * contact.range() {
         return;
     }
     let key = match contact {

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use tungstenite::handshake::HandshakeError;
-use tungstenite::handshake::server::{ErrorResponse, Request, Response};
+use tungstenite::handshake::server::{Callback, ErrorResponse, Request, Response};
 use tungstenite::http::{HeaderValue, StatusCode};
 use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Bytes, Error, Message, WebSocket};
@@ -63,8 +63,7 @@ fn shake_hands(stream: TcpStream, host: &Host) -> Result<WebSocket<TcpStream>, E
     let config = WebSocketConfig::default()
         .max_message_size(Some(LONGEST_REQUEST))
         .max_frame_size(Some(LONGEST_REQUEST));
-    let answer = |request: &Request, response: Response| answer(request, response, host);
-    let mut shaken = tungstenite::accept_hdr_with_config(stream, answer, Some(config));
+    let mut shaken = tungstenite::accept_hdr_with_config(stream, Answer { host }, Some(config));
     loop {
         match shaken {
             Ok(socket) => return Ok(socket),
@@ -76,35 +75,45 @@ fn shake_hands(stream: TcpStream, host: &Host) -> Result<WebSocket<TcpStream>, E
     }
 }
 
-#[expect(clippy::result_large_err, reason = "the signature is that of the handshake")]
-fn answer(
-    request: &Request,
-    mut response: Response,
-    host: &Host,
-) -> Result<Response, ErrorResponse> {
-    let refuse = |status: StatusCode, reason: String| {
-        let mut refusal = ErrorResponse::new(Some(reason));
-        *refusal.status_mut() = status;
-        Err(refusal)
-    };
-    if let Err(reason) = host.visitors.check(request) {
-        if !host.has_refused.swap(true, Ordering::Relaxed) {
-            tracing::warn!("--live: a viewer was refused: {reason}; --live-origin lets others in");
+/// What the handshake answers to a request: whether its viewer is let in, and by which protocol.
+struct Answer<'a> {
+    host: &'a Host,
+}
+
+impl Callback for Answer<'_> {
+    fn on_request(
+        self,
+        request: &Request,
+        mut response: Response,
+    ) -> Result<Response, ErrorResponse> {
+        let refuse = |status: StatusCode, reason: String| {
+            let mut refusal = ErrorResponse::new(Some(reason));
+            *refusal.status_mut() = status;
+            refusal
+        };
+        if let Err(reason) = self.host.visitors.check(request) {
+            if !self.host.has_refused.swap(true, Ordering::Relaxed) {
+                tracing::warn!(
+                    "--live: a viewer was refused: {reason}; --live-origin lets others in"
+                );
+            }
+            return Err(refuse(StatusCode::FORBIDDEN, format!("{reason}; see --live-origin")));
         }
-        return refuse(StatusCode::FORBIDDEN, format!("{reason}; see --live-origin"));
-    }
-    let offered = request.headers().get_all(PROTOCOL_HEADER);
-    let offered: Vec<&str> = offered
-        .iter()
-        .filter_map(|value| value.to_str().ok())
-        .flat_map(|value| value.split(',').map(str::trim))
-        .collect();
-    match PROTOCOLS.into_iter().find(|known| offered.contains(known)) {
-        Some(known) => {
-            response.headers_mut().insert(PROTOCOL_HEADER, HeaderValue::from_static(known));
-            Ok(response)
+        let offered = request.headers().get_all(PROTOCOL_HEADER);
+        let offered: Vec<&str> = offered
+            .iter()
+            .filter_map(|value| value.to_str().ok())
+            .flat_map(|value| value.split(',').map(str::trim))
+            .collect();
+        match PROTOCOLS.into_iter().find(|known| offered.contains(known)) {
+            Some(known) => {
+                response.headers_mut().insert(PROTOCOL_HEADER, HeaderValue::from_static(known));
+                Ok(response)
+            }
+            None => {
+                Err(refuse(StatusCode::BAD_REQUEST, format!("protocols: {}", PROTOCOLS.join(", "))))
+            }
         }
-        None => refuse(StatusCode::BAD_REQUEST, format!("protocols: {}", PROTOCOLS.join(", "))),
     }
 }
 
