@@ -17,7 +17,8 @@ use crate::body::{Pose, RigidVector, Twist};
 const TOLERANCE: f64 = 1e-3;
 /// The same of a step of first order, which loses energy at each of them.
 const FIRST_ORDER_TOLERANCE: f64 = 1e-4;
-/// Energy that is made counts as so many times what is lost: a rebound may be lower than the fall, not higher.
+/// Energy that is made counts as so many times what is lost where nothing but contact stops a body: a rebound may be lower
+/// than the fall, not higher.
 const WEIGHT_OF_GAIN: f64 = 10.0;
 /// Singular value over the largest below which a motion has no inertia.
 const NO_INERTIA: f64 = 1e-12;
@@ -77,14 +78,17 @@ impl StepEnergy<'_> {
         if involved.iter().all(|&body| self.bodies[body].inertia == Matrix6::zeros()) {
             return ContactEnergy { stored, ..ContactEnergy::default() };
         }
-        let [inertia, contact] = self.shares(&involved, &pairs);
+        let others: f64 = involved.iter().map(|&body| self.other_forces(body)).sum();
+        let [inertia, contact] = self.shares(&involved, &pairs, others);
         let potential = inertia * (self.work_of_contact(&pairs) + stored - before);
         let kinetic: f64 = involved.iter().map(|&body| self.bodies[body].kinetic_defect()).sum();
         let kinetic = contact * kinetic;
-        let others: f64 = involved.iter().map(|&body| self.other_forces(body)).sum();
-        let scale = impact + before + range * others;
+        let bounce = impact + before;
+        let scale = bounce + range * others;
         let made = potential + kinetic;
-        let size = (potential.abs() + kinetic.abs()).max(WEIGHT_OF_GAIN * made);
+        // What is made in a film is lost in it again
+        let weight = 1.0 + (WEIGHT_OF_GAIN - 1.0) * (bounce / scale);
+        let size = (potential.abs() + kinetic.abs()).max(weight * made);
         let tolerance = if self.is_second_order { TOLERANCE } else { FIRST_ORDER_TOLERANCE };
         let error = if size > 0.0 { size / (tolerance * scale) } else { 0.0 };
         ContactEnergy { stored, made, error }
@@ -134,9 +138,9 @@ impl StepEnergy<'_> {
         bodies
     }
 
-    /// Part of the loads of contact at the end of the step that changes velocities, where the rest balances other forces;
-    /// and part of what changes velocities that is contact, where the rest is a film.
-    fn shares(&self, involved: &[usize], pairs: &[Vec<ContactPair>; 2]) -> [f64; 2] {
+    /// Part of the loads of contact at the end of the step that changes velocities, where the rest balances other forces (N);
+    /// and part of all forces that is contact, where the rest is a film or a drive.
+    fn shares(&self, involved: &[usize], pairs: &[Vec<ContactPair>; 2], others: f64) -> [f64; 2] {
         let at_end = involved.iter().map(|&body| self.loads.wrenches[body].force.norm());
         let at_end: f64 = at_end.sum();
         let force = |pair: &ContactPair| pair.weight * self.law.force(pair.gap);
@@ -147,7 +151,7 @@ impl StepEnergy<'_> {
         });
         let rate: f64 = rates.sum();
         let part = |of: f64, whole: f64| if whole > 0.0 { (of / whole).min(1.0) } else { 1.0 };
-        [part(rate, at_end), part(largest, rate)]
+        [part(rate, at_end), part(largest, largest + others)]
     }
 
     /// All other forces on a body at the end of the step (N).
