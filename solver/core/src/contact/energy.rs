@@ -14,7 +14,7 @@ use super::{ContactLoads, ContactPair, Gaps, Law, Partner};
 use crate::body::{Pose, RigidVector, Twist};
 
 /// Error of a step over the energy of the contact that is as large as it should be.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 5e-4;
 /// The same of a step of first order, which loses energy at each of them.
 const FIRST_ORDER_TOLERANCE: f64 = 1e-4;
 /// Energy that is made counts as so many times what is lost where nothing but contact stops a body: a rebound may be lower
