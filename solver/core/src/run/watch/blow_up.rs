@@ -3,6 +3,7 @@
 use super::pace::Pace;
 use super::sound_state::SoundState;
 use crate::case::TimeSettings;
+use crate::coupling::SurfaceLoads;
 use crate::run::measure::FlowMeasurement;
 use crate::run::run::Run;
 use crate::run::simulation::Simulation;
@@ -67,7 +68,7 @@ impl<const D: usize> Simulation<D> {
                 let speed = self.start_speed(elastic + contact);
                 self.state.record_start(energy + contact, speed);
             }
-            self.record_drives(&crate::coupling::SurfaceLoads::none(self.problem.bodies.len()))?;
+            self.record_drives(&SurfaceLoads::none(self.problem.bodies.len()))?;
             if !is_steady {
                 return Ok(Pace { cell_reynolds, ..Pace::default() });
             }

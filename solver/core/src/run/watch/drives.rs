@@ -1,8 +1,9 @@
 //! What drives fluid and bodies: the work done on them, and the speeds it gives by itself.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use alewife_mesh::{BoundaryId, NodeId};
+use alewife_mesh::BoundaryId;
 
 use crate::body::{Mode, Pose, in_space};
 use crate::contact::MinimumGap;
@@ -67,11 +68,12 @@ impl<const D: usize> Simulation<D> {
         let Self { problem, state, work, .. } = self;
         let mut power = supplied(loads.sides_power) + self.energy_inflow();
         let mean_flow = work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now);
+        let counted = self.counted();
         power += mean_flow.map_or(0.0, |report| supplied(report.power));
         for (index, body) in problem.bodies.iter().enumerate() {
             let (twist, pose) = (state.now.twists[index].to_vector(), &state.poses[index]);
             let fluid = loads.bodies[index];
-            if self.is_counted(index) {
+            if counted[index] {
                 power += supplied(body.external(state.time, pose).dot(&twist));
                 // That of its surface on the fluid beside its motion as a whole
                 if body.gait.is_some() {
@@ -83,7 +85,7 @@ impl<const D: usize> Simulation<D> {
             }
         }
         for joint in measure_joints(problem, state, &loads.bodies)? {
-            if self.is_counted(joint.child)
+            if counted[joint.child]
                 && let Some(hinge) = &problem.bodies[joint.child].joint
             {
                 power += supplied(actuator_power(hinge, &joint, state.time));
@@ -112,9 +114,9 @@ impl<const D: usize> Simulation<D> {
         sides.map(inflow).sum()
     }
 
-    /// Whether what acts on a body is known, so that its energy is counted: where it is moved, or deforms,
+    /// Whether what acts on each body is known, so that its energy is counted: where it is moved, or deforms,
     /// or hangs on such a body, only its work on the fluid is.
-    pub(in crate::run) fn is_counted(&self, body: usize) -> bool {
+    fn counted(&self) -> Vec<bool> {
         let bodies = &self.problem.bodies;
         let root = |mut body: usize| {
             while let Some(joint) = &bodies[body].joint {
@@ -122,10 +124,14 @@ impl<const D: usize> Simulation<D> {
             }
             body
         };
-        let root_of_body = root(body);
-        let deforms = |other: usize| bodies[other].shape.is_some() && root(other) == root_of_body;
-        let is_moved = |drive: &Drive| matches!(drive, Drive::Given(_));
-        !bodies[root_of_body].drives.iter().any(is_moved) && !(0..bodies.len()).any(deforms)
+        let roots: Vec<usize> = (0..bodies.len()).map(root).collect();
+        let is_moved =
+            |body: &RigidBody| body.drives.iter().any(|drive| matches!(drive, Drive::Given(_)));
+        let mut is_known: Vec<bool> = bodies.iter().map(|body| !is_moved(body)).collect();
+        for (body, &root) in bodies.iter().zip(&roots) {
+            is_known[root] &= body.shape.is_none();
+        }
+        roots.into_iter().map(|root| is_known[root]).collect()
     }
 
     /// The largest speed that is given (m/s).
@@ -136,7 +142,8 @@ impl<const D: usize> Simulation<D> {
             _ => 0.0,
         };
         let mean_flow = problem.mean_flow_at(state.time).along.map(mean);
-        let bodies = problem.bodies.iter().enumerate().map(|(index, body)| {
+        let surfaces = self.surface_speeds();
+        let bodies = problem.bodies.iter().zip(surfaces).map(|(body, surface)| {
             let radius = Bulk::new(body, problem.density).radius;
             let given = |mode: Mode| {
                 let length = if mode.is_rotation() { radius } else { 1.0 };
@@ -145,26 +152,34 @@ impl<const D: usize> Simulation<D> {
             let moved: f64 = Mode::ALL.into_iter().map(given).sum();
             let stroke =
                 body.joint.as_ref().map_or(0.0, |joint| stroke_speed(joint, radius, state.time));
-            moved + stroke + self.surface_speed(index)
+            moved + stroke + surface
         });
         let given = bodies.chain(mean_flow).fold(0.0, f64::max);
         given.max(self.side_speed())
     }
 
-    /// Largest speed of the surface of a body relative to it (m/s).
-    fn surface_speed(&self, body: usize) -> f64 {
+    /// Largest speed of the surface of each body relative to it (m/s); zero of rigid ones without slip.
+    fn surface_speeds(&self) -> Vec<f64> {
         let Self { problem, state, .. } = self;
-        let rigid = &problem.bodies[body];
-        if rigid.gait.is_none() && rigid.shape.is_none() {
-            return 0.0;
+        let mut speeds = vec![0.0; problem.bodies.len()];
+        let moves = |body: &RigidBody| body.gait.is_some() || body.shape.is_some();
+        let own = problem.bodies.iter().enumerate().filter(|(_, body)| moves(body));
+        let own: BTreeMap<BoundaryId, usize> =
+            own.map(|(index, body)| (body.boundary, index)).collect();
+        if own.is_empty() {
+            return speeds;
         }
-        let Pose { center, .. } = state.in_mesh(&state.poses)[body];
-        let twist = state.now.twists[body];
-        let speed = |node: NodeId| {
-            let lever = in_space(&state.mesh.nodes[node]) - center;
-            (in_space(&state.now.velocity[node]) - twist.velocity_at(&lever)).norm()
-        };
-        self.nodes_on(|boundary| boundary == rigid.boundary).map(speed).fold(0.0, f64::max)
+        let poses = state.in_mesh(&state.poses);
+        for facet in &state.mesh.facets {
+            let Some(&body) = own.get(&facet.boundary) else { continue };
+            let (Pose { center, .. }, twist) = (poses[body], state.now.twists[body]);
+            for node in state.mesh.facet_nodes(facet) {
+                let lever = in_space(&state.mesh.nodes[node]) - center;
+                let speed = in_space(&state.now.velocity[node]) - twist.velocity_at(&lever);
+                speeds[body] = f64::max(speeds[body], speed.norm());
+            }
+        }
+        speeds
     }
 
     /// Largest speed of the sides with a given velocity (m/s).
@@ -172,15 +187,10 @@ impl<const D: usize> Simulation<D> {
         let sides = &self.problem.sides;
         let is_given =
             |boundary: BoundaryId| matches!(sides[boundary], Some(Side::Velocity { .. }));
-        let speed = |node: NodeId| self.state.now.velocity[node].norm();
-        self.nodes_on(is_given).map(speed).fold(0.0, f64::max)
-    }
-
-    /// The nodes on some boundaries, those of several facets more than once.
-    fn nodes_on(&self, counts: impl Fn(BoundaryId) -> bool) -> impl Iterator<Item = NodeId> {
-        let mesh = &self.state.mesh;
-        let facets = mesh.facets.iter().filter(move |facet| counts(facet.boundary));
-        facets.flat_map(|facet| mesh.facet_nodes(facet))
+        let Self { state, .. } = self;
+        let facets = state.mesh.facets.iter().filter(|facet| is_given(facet.boundary));
+        let nodes = facets.flat_map(|facet| state.mesh.facet_nodes(facet));
+        nodes.map(|node| state.now.velocity[node].norm()).fold(0.0, f64::max)
     }
 
     /// Loads on the bodies, and what they do by themselves.
@@ -250,8 +260,8 @@ impl<const D: usize> Simulation<D> {
         let of_body = |(index, body): (usize, &RigidBody)| {
             body.inertia.kinetic_energy(&state.poses[index], &state.now.twists[index])
         };
-        let bodies = problem.bodies.iter().enumerate();
-        bodies.filter(|(index, _)| self.is_counted(*index)).map(of_body).sum()
+        let (bodies, counted) = (problem.bodies.iter().enumerate(), self.counted());
+        bodies.filter(|(index, _)| counted[*index]).map(of_body).sum()
     }
 
     /// Energy of the springs of bodies and joints that are counted (J).
@@ -260,9 +270,9 @@ impl<const D: usize> Simulation<D> {
     /// When a gait gives its body no shape.
     pub(super) fn elastic_energy(&self) -> Result<f64, ShapeError> {
         let Self { problem, state, .. } = self;
-        let mut energy = 0.0;
+        let (mut energy, counted) = (0.0, self.counted());
         for (index, body) in problem.bodies.iter().enumerate() {
-            if !self.is_counted(index) {
+            if !counted[index] {
                 continue;
             }
             if let Some(spring) = &body.spring {
@@ -272,7 +282,7 @@ impl<const D: usize> Simulation<D> {
         }
         let no_loads = SurfaceLoads::none(problem.bodies.len()).bodies;
         for joint in measure_joints(problem, state, &no_loads)? {
-            if self.is_counted(joint.child)
+            if counted[joint.child]
                 && let Some(hinge) = &problem.bodies[joint.child].joint
             {
                 energy += elastic_energy(hinge, joint.coordinate);
