@@ -1,12 +1,13 @@
 //! Periodic boxes closed on themselves: bodies anywhere, and sides that match node by node.
 
-use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 use alewife_mesh::{
-    Domain, Facet, Mesh, NodeId, PlacedShape, Point, Quality, Shape, Sizing, check_mesh,
-    check_placement, check_wrapped_placement, generate_wrapped, whole,
+    Domain, Mesh, PlacedShape, Point, Quality, Shape, Sizing, check_mesh, check_placement,
+    check_wrapped_placement, generate_wrapped, whole,
 };
+
+use super::common::{self, lobed};
 
 /// Smallest angle promised (degrees).
 const SMALLEST_ANGLE: f64 = 25.0;
@@ -83,44 +84,13 @@ fn area_of_bodies(mesh: &Mesh<2>) -> f64 {
         .sum::<f64>()
 }
 
-/// Nodes are whole periods from their originals, and each facet on a periodic side is that of its image
-/// on the opposite side.
+/// Copies are copies, and far from their originals.
 fn assert_pairs(domain: &Domain, mesh: &Mesh<2>) {
-    let periods = domain.periods();
-    let original: HashMap<NodeId, NodeId> =
-        mesh.periodic.iter().map(|pair| (pair.copy, pair.original)).collect();
-    assert_eq!(original.len(), mesh.periodic.len());
-    assert!(original.values().all(|node| !original.contains_key(node)));
-    for (copy, original) in &original {
-        let apart = mesh.nodes[*copy] - mesh.nodes[*original];
-        assert!(apart.norm() > 0.1);
-        for axis in 0..2 {
-            let length = periods[axis].unwrap_or(f64::INFINITY);
-            let off = apart[axis] - (apart[axis] / length).round() * periods[axis].unwrap_or(0.0);
-            assert!(off.abs() < 1e-12, "{apart}");
-        }
+    let periods = Point::<2>::from(domain.periods().map(|period| period.unwrap_or(0.0)));
+    common::assert_pairs(mesh, &periods, 1e-12, |side| domain.is_periodic(side));
+    for pair in &mesh.periodic {
+        assert!((mesh.nodes[pair.copy] - mesh.nodes[pair.original]).norm() > 0.1);
     }
-    let mut sides: HashMap<Vec<NodeId>, Vec<usize>> = HashMap::new();
-    let is_periodic =
-        |facet: &&Facet| facet.boundary.index() < 4 && domain.is_periodic(facet.boundary.index());
-    for facet in mesh.facets.iter().filter(is_periodic) {
-        let nodes = mesh.facet_nodes(facet);
-        let mut nodes: Vec<NodeId> =
-            nodes.map(|node| *original.get(&node).unwrap_or(&node)).collect();
-        nodes.sort_unstable();
-        sides.entry(nodes).or_default().push(facet.boundary.index());
-    }
-    for pair in sides.values() {
-        assert!(matches!(pair[..], [one, other] if one == other ^ 1), "{pair:?}");
-    }
-}
-
-fn lobed(radius: f64) -> Shape {
-    let points = (0..20).map(|i| TAU * f64::from(i) / 20.0).map(|t| {
-        let r = radius * (1.0 + 0.2 * (3.0 * t).cos());
-        [r * t.cos(), r * t.sin()]
-    });
-    Shape::Spline { points: points.collect() }
 }
 
 #[test]
@@ -137,7 +107,7 @@ fn dense_random_placements_on_a_torus_are_meshed() {
         let bodies = crowd(&domain, wanted.max(1), &mut random, &|random| match seed / 3 % 3 {
             0 => Shape::Disc { radius: 0.7 },
             1 => Shape::Ellipse { semi_axes: [0.9, 0.3 + 0.3 * random.next()] },
-            _ => lobed(0.4 + 0.4 * random.next()),
+            _ => lobed(0.4 + 0.4 * random.next(), 3, 0.2),
         });
         let crosses = check_placement(&domain, &bodies).is_err();
         let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(0.15, 0.3, 0.6) };

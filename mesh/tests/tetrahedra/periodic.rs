@@ -1,12 +1,11 @@
 //! Boxes with periodic sides: bodies anywhere, facets that match node by node, and cells as good as elsewhere.
 
-use std::collections::BTreeMap;
-
 use alewife_mesh::spatial::{Body, Domain, Shape, SizeField, check_placement, generate};
-use alewife_mesh::{Facet, Mesh, MeshError, NodeId, Point, Quality, SizeBox, Sizing};
+use alewife_mesh::{Mesh, MeshError, NodeId, Point, Quality, SizeBox, Sizing};
 
 use super::random::random_crowd;
 use super::{SMALLEST_ANGLE, assert_mesh, at, sizing, sphere};
+use crate::common;
 
 fn periodic_box(min: Point<3>, max: Point<3>, periodic: [bool; 3]) -> Domain {
     Domain::Box { min, max, periodic, symmetric: [false; 6] }
@@ -16,36 +15,11 @@ fn unit_box(periodic: [bool; 3]) -> Domain {
     periodic_box(Point::<3>::repeat(-0.5), Point::<3>::repeat(0.5), periodic)
 }
 
-/// Nodes are whole periods from their originals, and each facet on a periodic side is that of its image on the
-/// opposite side.
 fn assert_pairs(mesh: &Mesh<3>, domain: &Domain) {
     let [_, max] = domain.corners();
     let periods = domain.periods();
     let rounding = 1e-13 * (max.amax() + periods.amax());
-    let original: BTreeMap<NodeId, NodeId> =
-        mesh.periodic.iter().map(|pair| (pair.copy, pair.original)).collect();
-    assert_eq!(original.len(), mesh.periodic.len());
-    for (copy, original) in &original {
-        let away = mesh.nodes[*copy] - mesh.nodes[*original];
-        for axis in 0..3 {
-            let step = if periods[axis] > 0.0 { (away[axis] / periods[axis]).round() } else { 0.0 };
-            assert!((away[axis] - step * periods[axis]).abs() < rounding, "{away}");
-        }
-    }
-    assert!(original.values().all(|node| !original.contains_key(node)));
-    let mut sides: BTreeMap<Vec<NodeId>, Vec<usize>> = BTreeMap::new();
-    let is_periodic =
-        |facet: &&Facet| facet.boundary.index() < 6 && domain.is_periodic(facet.boundary.index());
-    for facet in mesh.facets.iter().filter(is_periodic) {
-        let nodes = mesh.facet_nodes(facet);
-        let mut nodes: Vec<NodeId> =
-            nodes.map(|node| *original.get(&node).unwrap_or(&node)).collect();
-        nodes.sort_unstable();
-        sides.entry(nodes).or_default().push(facet.boundary.index());
-    }
-    for pair in sides.values() {
-        assert!(matches!(pair[..], [one, other] if one == other ^ 1), "{pair:?}");
-    }
+    common::assert_pairs(mesh, &periods, rounding, |side| domain.is_periodic(side));
 }
 
 fn check(domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) -> Mesh<3> {
