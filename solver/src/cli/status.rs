@@ -75,13 +75,7 @@ fn progress(directory: &Path) -> Result<Progress, Failure> {
 
 impl Progress {
     fn state(&self) -> &'static str {
-        match self.status.state {
-            RunState::Running if self.is_killed => "killed",
-            RunState::Running => "running",
-            RunState::Finished => "finished",
-            RunState::Failed => "failed",
-            RunState::Stopped => "stopped",
-        }
+        self.status.state.in_a_word(!self.is_killed)
     }
 
     fn to_json(&self, directory: &Path) -> Result<serde_json::Value, Failure> {

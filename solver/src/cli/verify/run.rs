@@ -8,9 +8,7 @@ use super::found::Found;
 use super::known::Known;
 use super::{fields, records, states};
 use crate::case::{Cadence, Case, TimeSettings};
-use crate::observer::{
-    COMPARISON_FILE, Provenance, RunLock, RunState, Status, checksum, read_series,
-};
+use crate::observer::{COMPARISON_FILE, Provenance, RunLock, Status, checksum, read_series};
 use crate::run::Series;
 
 /// Part of the end of a run by which its last time may differ for rounding.
@@ -40,14 +38,8 @@ pub fn verify(directory: &Path) -> Found {
 }
 
 fn state(known: &Known) -> &'static str {
-    match known.status.as_ref().map(|status| status.state) {
-        None => "unknown",
-        Some(RunState::Running) if !known.is_under_way => "killed",
-        Some(RunState::Running) => "running",
-        Some(RunState::Finished) => "finished",
-        Some(RunState::Failed) => "failed",
-        Some(RunState::Stopped) => "stopped",
-    }
+    let in_a_word = |status: &Status| status.state.in_a_word(known.is_under_way);
+    known.status.as_ref().map_or("unknown", in_a_word)
 }
 
 /// The case as it was run.

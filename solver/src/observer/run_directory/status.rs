@@ -34,6 +34,20 @@ pub enum RunState {
     Stopped,
 }
 
+impl RunState {
+    /// In a word, of a run that a process holds or not.
+    #[must_use]
+    pub fn in_a_word(self, is_held: bool) -> &'static str {
+        match self {
+            Self::Running if !is_held => "killed",
+            Self::Running => "running",
+            Self::Finished => "finished",
+            Self::Failed => "failed",
+            Self::Stopped => "stopped",
+        }
+    }
+}
+
 /// Where a process was when it had its first row: what comes later is steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FirstRow {
