@@ -3,7 +3,7 @@
 use super::at_rest;
 use crate::{Case, check, library};
 
-/// Whether it is told of a case that nothing drives it: in a geometry, with a condition on its left side.
+/// Whether there is a warning that nothing drives a case: in a geometry, with a condition on its left side.
 fn is_at_rest(geometry: &str, left: &str, lines: &str) -> bool {
     let (domain, sides) = match geometry {
         "planar" => ("box = { min = [-9.0, -9.0], max = [9.0, 9.0] }", "bottom = W, top = W"),
