@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 23] = [
+const ROOMS: [(&str, &[&str]); 24] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -21,6 +21,7 @@ const ROOMS: [(&str, &[&str]); 23] = [
     ("multifrontal", &["sparse"]),
     ("multigrid", &["sparse"]),
     ("algebra", &["multifrontal", "multigrid", "sparse"]),
+    ("structure", &[]),
     ("time", &["case"]),
     ("body", &["time"]),
     ("contact", &["body"]),

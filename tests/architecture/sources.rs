@@ -27,12 +27,13 @@ pub fn sources(folder: &str) -> BTreeMap<String, String> {
 }
 
 /// Source folders of all crates.
-pub const CRATES: [&str; 6] = [
+pub const CRATES: [&str; 7] = [
     "mesh/src",
     "solver/case/src",
     "solver/core/src",
     "solver/flow/src",
     "solver/linear/src",
+    "solver/solid/src",
     "solver/src",
 ];
 

@@ -1,0 +1,47 @@
+//! `Structure`: a body of any number of velocities, as the equations of motion ask for it.
+
+use nalgebra::{DMatrix, DVector};
+
+/// An elastic body with coordinates q (n) and velocities v = dq/dt, which obeys
+///
+/// ```text
+/// M dv/dt + f(q, v, t) = Q,
+/// ```
+///
+/// where the load Q is the work of outer forces per virtual displacement: dW = Q . dq. Coordinates are places
+/// (m) or angles (rad); in planar problems masses and forces are per length.
+pub trait Structure: Send + Sync {
+    /// Number of coordinates n.
+    fn n_coordinates(&self) -> usize;
+
+    /// Mass matrix M (n x n), symmetric and constant.
+    fn mass(&self) -> DMatrix<f64>;
+
+    /// Inner forces f (n) at a time (s): elastic, active and of damping.
+    fn forces(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> DVector<f64>;
+
+    /// How the inner forces depend on coordinates and on velocities, at a time (s).
+    fn tangents(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> Tangents;
+
+    /// Elastic energy (J, in planar problems per length), which has no part of what is active.
+    fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64;
+}
+
+/// Derivatives of the inner forces (n x n each).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tangents {
+    /// By coordinates: the stiffness K.
+    pub stiffness: DMatrix<f64>,
+    /// By velocities: the damping C.
+    pub damping: DMatrix<f64>,
+}
