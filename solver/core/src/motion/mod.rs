@@ -5,6 +5,7 @@ mod boundary_condition;
 mod elliptic;
 mod moving_mesh;
 mod new_mesh;
+mod present_gaps;
 mod remesh;
 mod replace_mesh;
 mod rigid;
@@ -19,6 +20,7 @@ pub use boundary_condition::{
 };
 pub use elliptic::MeshMotion;
 pub use moving_mesh::{GapsAt, MotionSettings, MovingMesh};
+pub use present_gaps::PresentGaps;
 pub use remesh::{Fresh, Limits, Reason, needs_remesh};
 pub use replace_mesh::replace_mesh;
 pub use rigid::RigidMove;

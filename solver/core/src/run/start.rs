@@ -17,15 +17,16 @@ impl<const D: usize> Simulation<D> {
     pub(super) fn settle_moving_walls(&mut self) -> Result<(), RunError> {
         let Self { problem, state, work, moving_mesh, .. } = self;
         let Some(moving) = moving_mesh else { return Ok(()) };
+        let poses = state.in_own_frame(problem, &state.poses);
         let mut settled = None;
         if moving.scene().has_moving_wall() {
             let shapes = BodyShapes::at(&problem.bodies, 0.0)?;
-            let nodes = moving.nodes(&state.poses, &shapes)?;
+            let nodes = moving.nodes(&poses, &shapes)?;
             work.mesh.nodes.clone_from(&nodes);
             work.system.move_to(problem, &work.mesh);
             settled = Some(nodes);
         }
-        let minimum_gap = moving.gaps().minimum_gap(&state.poses);
+        let minimum_gap = moving.gaps().minimum_gap(&poses);
         state.settle(settled, minimum_gap);
         Ok(())
     }

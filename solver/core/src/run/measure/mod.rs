@@ -114,10 +114,11 @@ impl<const D: usize> Measure<D> {
         let bodies = body_reports(simulation, &loads.bodies)?;
         let mut flow = FlowMeasurement::new(simulation, crossing);
         let Simulation { problem, state, moving_mesh, .. } = simulation;
-        let own_poses = state.in_own_frame(problem, &state.poses);
-        let minimum_gap = |group: &Group| {
-            moving_mesh.as_ref()?.gaps().minimum_gap_among(&own_poses, &group.bodies)
-        };
+        // One body has no gaps of its own
+        let has_gaps = problem.groups.iter().any(|group| group.bodies.len() > 1);
+        let moving = moving_mesh.as_ref().filter(|_| has_gaps);
+        let gaps = moving.map(|moving| moving.present_gaps(problem, state)).transpose()?;
+        let minimum_gap = |group: &Group| gaps.as_ref()?.minimum_gap_among(&group.bodies);
         let joints = measure_joints(problem, state, &loads.bodies)?;
         let groups = problem.groups.iter().zip(&state.propulsion);
         let swimmers: Vec<_> = groups
