@@ -1,4 +1,4 @@
-//! `History`: what a run wrote before it stopped, for the run that resumes it to go on with.
+//! `History`: what a run wrote before it stopped, for the run that resumes it to continue.
 
 use std::fs;
 use std::io;
@@ -28,7 +28,7 @@ pub struct History {
     pub time: f64,
     /// The rows of `series.csv`.
     pub series: Series,
-    /// The files in `fields/`; none of them if the run goes on in another directory.
+    /// The files in `fields/`; none of them if the run continues in another directory.
     pub frames: Vec<Frame>,
     /// The directory it wrote to.
     pub directory: PathBuf,
@@ -156,7 +156,7 @@ mod tests {
         assert_eq!(history.series.rows, [[1.0], [2.0]]);
         assert_eq!(history.frames, [Frame { time: 0.0, file: "fields/000000.vtu".to_owned() }]);
         write("series.csv", "time,a\n0.0,1.0,2.0\n");
-        let told = History::read(place.path(), 1, 0.1).unwrap_err().to_string();
-        assert!(told.contains("series.csv: line 2 is damaged"), "{told}");
+        let reported = History::read(place.path(), 1, 0.1).unwrap_err().to_string();
+        assert!(reported.contains("series.csv: line 2 is damaged"), "{reported}");
     }
 }

@@ -49,7 +49,7 @@ struct Row {
     values: Vec<f64>,
 }
 
-/// Reads a time and so many values, or tells what is wrong.
+/// Reads a time and so many values, or reports what is wrong.
 fn row(line: &str, n_values: usize) -> Result<Row, String> {
     let number = |text: &str| text.parse().map_err(|_| format!("`{text}` is no number"));
     let numbers: Vec<f64> = line.split(',').map(number).collect::<Result<_, _>>()?;
