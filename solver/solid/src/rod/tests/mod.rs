@@ -1,0 +1,10 @@
+//! Rods against exact solutions, and their derivatives against differences.
+
+mod active;
+mod common;
+mod derivatives;
+mod motion;
+mod properties;
+mod resistive;
+mod statics;
+mod surface;
