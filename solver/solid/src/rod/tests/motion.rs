@@ -12,8 +12,16 @@ use crate::structure::Structure;
 /// Roots of cos(x) cosh(x) = -1: frequencies of a cantilever of length, stiffness and mass one are their squares.
 const CANTILEVER: [f64; 3] = [1.875_104_069, 4.694_091_133, 7.854_757_438];
 
-/// Frequencies (rad/s), ascending, and modes of a straight rod whose first coordinates are held.
-fn modes(rod: &PlanarRod, held: usize) -> Vec<(f64, DVector<f64>)> {
+/// A mode of vibration.
+struct Mode {
+    /// Its frequency (rad/s).
+    frequency: f64,
+    /// Coordinates, less those of the straight rod.
+    shape: DVector<f64>,
+}
+
+/// Modes of a straight rod whose first coordinates are held, by their frequencies.
+fn modes(rod: &PlanarRod, held: usize) -> Vec<Mode> {
     let q = along_x(rod);
     let free = q.len() - held;
     let part = |matrix: DMatrix<f64>| matrix.view((held, held), (free, free)).into_owned();
@@ -21,23 +29,23 @@ fn modes(rod: &PlanarRod, held: usize) -> Vec<(f64, DVector<f64>)> {
     let factor = part(rod.mass()).cholesky().expect("all has mass").l();
     let inverse = factor.try_inverse().expect("all has mass");
     let eigen = (&inverse * stiffness * inverse.transpose()).symmetric_eigen();
-    let mut modes: Vec<(f64, DVector<f64>)> = (0..free)
+    let mut modes: Vec<Mode> = (0..free)
         .map(|i| {
             let mode = inverse.transpose() * eigen.eigenvectors.column(i);
-            let mut all = DVector::zeros(q.len());
-            all.rows_mut(held, free).copy_from(&mode);
-            (eigen.eigenvalues[i].max(0.0).sqrt(), all)
+            let mut shape = DVector::zeros(q.len());
+            shape.rows_mut(held, free).copy_from(&mode);
+            Mode { frequency: eigen.eigenvalues[i].max(0.0).sqrt(), shape }
         })
         .collect();
-    modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     modes
 }
 
 #[test]
 fn a_cantilever_has_its_frequencies() {
     let rod = planar(unit(10));
-    for ((frequency, _), root) in modes(&rod, 4).iter().zip(CANTILEVER) {
-        assert_near(*frequency, root * root, 1e-3);
+    for (mode, root) in modes(&rod, 4).iter().zip(CANTILEVER) {
+        assert_near(mode.frequency, root * root, 1e-3);
     }
 }
 
@@ -70,9 +78,9 @@ struct FirstMode {
 fn first_mode(rod: &PlanarRod) -> FirstMode {
     /// So small that what is not linear is below 1e-5.
     const AMPLITUDE: f64 = 1e-5;
-    let (frequency, mode) = modes(rod, 4).swap_remove(0);
-    let height = mode[mode.len() - 3] * AMPLITUDE;
-    FirstMode { start: at_rest(along_x(rod) + mode * AMPLITUDE), frequency, height }
+    let Mode { frequency, shape } = modes(rod, 4).swap_remove(0);
+    let height = shape[shape.len() - 3] * AMPLITUDE;
+    FirstMode { start: at_rest(along_x(rod) + shape * AMPLITUDE), frequency, height }
 }
 
 /// A cantilever after a time, with steps of a size.
