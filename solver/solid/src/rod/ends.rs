@@ -2,17 +2,9 @@
 
 use nalgebra::{DVector, SMatrix, Vector2};
 
+use super::end::End;
 use super::plane::PlanarRod;
 use crate::structure::Held;
-
-/// An end of a rod.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum End {
-    /// Where distances along it start.
-    Base,
-    /// The other end.
-    Tip,
-}
 
 /// How an end is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,15 +90,6 @@ impl Support {
 }
 
 impl PlanarRod {
-    /// First of the four coordinates of an end: x, y, dx/ds, dy/ds.
-    #[must_use]
-    pub fn first_coordinate(&self, end: End) -> usize {
-        match end {
-            End::Base => 0,
-            End::Tip => Self::STRIDE * (self.knots().len() - 1),
-        }
-    }
-
     /// The coordinates that a support gives.
     #[must_use]
     pub fn held(&self, end: End, support: Support, pose: &EndPose) -> Vec<Held> {

@@ -8,14 +8,19 @@
 
 mod along;
 mod elastic;
+mod end;
 mod ends;
 mod error;
+mod frame;
 mod hermite;
 mod kinematics;
 mod mass;
 mod plane;
 mod resistive;
 mod rod_properties;
+mod space;
+mod spatial_ends;
+mod spatial_surface;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -23,10 +28,14 @@ mod weight;
 
 pub use along::{Along, Field, Varying};
 pub use elastic::{Rod, RodPower};
-pub use ends::{End, EndLoad, EndPose, Support};
+pub use end::End;
+pub use ends::{EndLoad, EndPose, Support};
 pub use error::RodError;
 pub use plane::PlanarRod;
 pub use resistive::Resistance;
-pub use rod_properties::{Flexure, PlanarProperties, RodProperties};
+pub use rod_properties::{Flexure, PlanarProperties, RodProperties, SpatialProperties};
+pub use space::SpatialRod;
+pub use spatial_ends::{SpatialEndLoad, SpatialEndPose};
+pub use spatial_surface::{SpatialSectionPoint, SpatialSurfaceRows};
 pub use surface::{RoundedStrip, SectionPoint, SurfaceRows};
 pub use weight::LineForce;

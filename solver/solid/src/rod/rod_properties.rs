@@ -86,3 +86,14 @@ pub struct PlanarProperties {
     /// Bending in the plane.
     pub bending: Flexure,
 }
+
+/// What is given of a rod in space.
+#[derive(Debug, Clone)]
+pub struct SpatialProperties {
+    /// Size and mass.
+    pub rod: RodProperties,
+    /// Bending about d1 and about d2.
+    pub bending: [Flexure; 2],
+    /// Twist.
+    pub twisting: Flexure,
+}

@@ -20,7 +20,10 @@ fn full() -> PlanarRod {
 }
 
 /// Derivative of a vector by another one, by central differences.
-fn jacobian(at: &DVector<f64>, function: impl Fn(&DVector<f64>) -> DVector<f64>) -> DMatrix<f64> {
+pub fn jacobian(
+    at: &DVector<f64>,
+    function: impl Fn(&DVector<f64>) -> DVector<f64>,
+) -> DMatrix<f64> {
     const STEP: f64 = 1e-5;
     let columns: Vec<DVector<f64>> = (0..at.len())
         .map(|i| {
@@ -34,7 +37,7 @@ fn jacobian(at: &DVector<f64>, function: impl Fn(&DVector<f64>) -> DVector<f64>)
 }
 
 #[track_caller]
-fn assert_same(exact: &DMatrix<f64>, difference: &DMatrix<f64>) {
+pub fn assert_same(exact: &DMatrix<f64>, difference: &DMatrix<f64>) {
     let error = (exact - difference).amax() / exact.amax();
     assert!(error < 1e-7, "derivatives differ from differences by {error:.1e}");
 }

@@ -6,5 +6,6 @@ mod derivatives;
 mod motion;
 mod properties;
 mod resistive;
+mod space;
 mod statics;
 mod surface;
