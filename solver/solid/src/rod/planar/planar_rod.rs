@@ -2,13 +2,13 @@
 
 use nalgebra::{DVector, Vector2};
 
-use super::along::Along;
-use super::elastic::{Parts, Rod};
-use super::error::RodError;
-use super::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
-use super::kinematics::{Kinematics, Number, StrainKind, StrainPoint};
-use super::mass::mass;
-use super::rod_properties::PlanarProperties;
+use crate::rod::along::Along;
+use crate::rod::elastic::{Parts, Rod};
+use crate::rod::error::RodError;
+use crate::rod::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
+use crate::rod::kinematics::{Kinematics, Number, StrainKind, StrainPoint};
+use crate::rod::mass::mass;
+use crate::rod::properties::PlanarProperties;
 
 /// Coordinates of an element.
 pub(super) const COORDINATES: usize = 8;

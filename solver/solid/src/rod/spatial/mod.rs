@@ -1,0 +1,10 @@
+//! Rods in space, their ends and the surface about them.
+
+mod ends;
+mod frame;
+mod spatial_rod;
+mod surface;
+
+pub use ends::{SpatialEndLoad, SpatialEndPose};
+pub use spatial_rod::SpatialRod;
+pub use surface::{SpatialSectionPoint, SpatialSurfaceRows};
