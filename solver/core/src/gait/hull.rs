@@ -244,7 +244,9 @@ impl MaterialCurve {
     /// The closed curve of the outline, in space that in the plane of the midline.
     pub(super) fn outline(&self) -> Option<Spline> {
         match self {
-            Self::Spline { points, .. } => Some(points.as_ref().clone()),
+            Self::Spline { points, .. } | Self::Carried { points, .. } => {
+                Some(points.as_ref().clone())
+            }
             Self::Sections { surface, .. } => {
                 let sections = surface.sections();
                 let (knots, end) = (sections.knots(), sections.end());

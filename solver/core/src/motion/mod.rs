@@ -22,6 +22,6 @@ pub use moving_mesh::{GapsAt, MotionSettings, MovingMesh};
 pub use remesh::{Fresh, Limits, Reason, needs_remesh};
 pub use replace_mesh::replace_mesh;
 pub use rigid::RigidMove;
-pub use scene::{Meshed, PosesByShift, RemeshError, Scene};
+pub use scene::{Meshed, PosesByShift, RemeshError, RestPlace, Scene};
 pub use stiffness::{MotionKind, Stiffening};
 pub use transfer::{Landing, Transfer, TransferReport};

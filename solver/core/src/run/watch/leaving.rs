@@ -33,7 +33,7 @@ impl<const D: usize> Run<'_, D> {
         let crate::run::Simulation { problem, state, moving_mesh, .. } = &self.simulation;
         let mut leaving = vec![None; problem.bodies.len()];
         let Some(moving) = moving_mesh else { return Ok(leaving) };
-        let shapes = BodyShapes::at(&problem.bodies, state.time)?;
+        let shapes = BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
         let gaps = moving.gaps_at(&shapes);
         let mut nearest = vec![distance; problem.bodies.len()];
         for pair in gaps.pairs(&state.in_mesh(&state.poses), distance) {
