@@ -7,6 +7,7 @@
 //! taken by automatic differentiation.
 
 mod along;
+mod center;
 mod elastic;
 mod end;
 mod error;
@@ -17,6 +18,7 @@ mod mass;
 mod planar;
 mod properties;
 mod spatial;
+mod supports;
 #[cfg(test)]
 mod tests;
 
@@ -25,8 +27,12 @@ pub use elastic::{Rod, RodPower};
 pub use end::{End, Support};
 pub use error::RodError;
 pub use loads::{LineForce, Resistance};
-pub use planar::{EndLoad, EndPose, PlanarRod, RoundedStrip, SectionPoint, SurfaceRows};
+pub use planar::{
+    EndLoad, EndPose, PlanarRod, PlanarRodBody, RoundedStrip, SectionPoint, SurfaceRows,
+};
 pub use properties::{Flexure, PlanarProperties, RodProperties, SpatialProperties};
 pub use spatial::{
-    SpatialEndLoad, SpatialEndPose, SpatialRod, SpatialSectionPoint, SpatialSurfaceRows,
+    SpatialEndLoad, SpatialEndPose, SpatialRod, SpatialRodBody, SpatialSectionPoint,
+    SpatialSurfaceRows,
 };
+pub use supports::{HeldEnd, Supports};
