@@ -17,6 +17,7 @@ mod loads;
 mod mass;
 mod planar;
 mod properties;
+mod section;
 mod spatial;
 mod supports;
 #[cfg(test)]
@@ -31,6 +32,7 @@ pub use planar::{
     EndLoad, EndPose, PlanarRod, PlanarRodBody, RoundedStrip, SectionPoint, SurfaceRows,
 };
 pub use properties::{Flexure, PlanarProperties, RodProperties, SpatialProperties};
+pub use section::Section;
 pub use spatial::{
     SpatialEndLoad, SpatialEndPose, SpatialRod, SpatialRodBody, SpatialSectionPoint,
     SpatialSurfaceRows,
