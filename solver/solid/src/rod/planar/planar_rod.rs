@@ -14,7 +14,7 @@ use crate::rod::properties::PlanarProperties;
 pub(super) const COORDINATES: usize = 8;
 
 /// Strains of an element: curvature at Gauss points; stretch at both ends and in the middle, where a cubic can
-/// keep its length without becoming stiff in bending [@meier2015].
+/// keep its length without becoming stiff in bending (@meier2015).
 pub(super) const STRAINS: usize = 7;
 
 /// Points of the Gauss rule with two points, from 0 to 1.
