@@ -3,6 +3,7 @@
 mod boundaries;
 mod constrain;
 mod error;
+mod flexible_equation;
 mod kinematics;
 mod linear_system;
 mod loads;
@@ -14,12 +15,14 @@ mod projection;
 mod rigid_equations;
 mod shapes;
 mod solution;
+mod surface;
 mod system;
 mod uniform_flows;
 
 pub use boundaries::{Boundaries, BoundaryNode};
 pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
 pub use error::{SolveError, coordinates};
+pub use flexible_equation::FlexibleEquation;
 pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{
     BodyLoads, BodyStates, JointReport, LoadedBodies, MeanMotion, PropulsionPower, ResidualOnMesh,
@@ -36,6 +39,7 @@ pub use projection::DivergenceFreeProjection;
 pub use rigid_equations::{
     JointLoad, OlderMotion, PosesByVelocity, RigidBodyEquation, RigidBodyEquations,
 };
-pub use shapes::{BodyShapes, MovingSurface, ShapeError};
+pub use shapes::{BodyShapes, ShapeError};
 pub use solution::Solution;
-pub use system::{Configuration, FluidSystem};
+pub use surface::{MovingSurface, RestPlaces};
+pub use system::{Configuration, FluidSystem, MeshedBodies};

@@ -8,10 +8,11 @@ use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::constrain::Constrainer;
 use super::linear_system::{
-    Coefficients, Discretised, SolverChoice, SystemSolver, saddle_point, system_solver,
+    Coefficients, Discretised, NewSystem, SolverChoice, SystemSolver, saddle_point, system_solver,
 };
 use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
+use super::surface::RestPlaces;
 use super::uniform_flows::{UniformFlows, integral, node_integrals};
 
 use crate::algebra::{AffineConstraints, ConstraintBuilder, LinearError};
@@ -64,7 +65,8 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
         let saddle_point = saddle_point(&layout, &constraints, problem.modes());
-        let linear = system_solver(&assembly, &constraints, saddle_point, SolverChoice::Automatic);
+        let system = NewSystem { constraints: &constraints, saddle_point, blocks: Vec::new() };
+        let linear = system_solver(&assembly, system, SolverChoice::Automatic);
         let has_periods = problem.sides.iter().any(|side| matches!(side, Some(Side::Periodic)));
         let open_axes = match (problem.is_enclosed() && has_periods, problem.metric) {
             (false, _) => 0,
@@ -235,6 +237,7 @@ fn hold_given_velocities<const D: usize>(
             }
         }
     }
-    Constrainer { problem, mesh, layout }.close_pressures_and_periods(&mut builder);
+    let rest_places = &RestPlaces::new();
+    Constrainer { problem, mesh, layout, rest_places }.close_pressures_and_periods(&mut builder);
     builder.build()
 }

@@ -5,13 +5,14 @@
 
 use nalgebra::{Matrix6, Vector3};
 
+use super::flexible_equation::FlexibleEquation;
 use super::kinematics::Levers;
 use super::problem::{FreeArm, Joint, JointLaw, Problem, RigidBody, Turn};
 use super::shapes::BodyShapes;
 use crate::body::{Inertia, Modes, Pose, RigidVector, Twist, Wrench, carried_velocity};
 
 /// The equations of all bodies.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct RigidBodyEquations {
     /// Factor of the new velocity in its time derivative (1/s), 0 when steady.
     pub rate: f64,
@@ -19,6 +20,8 @@ pub struct RigidBodyEquations {
     pub bodies: Vec<RigidBodyEquation>,
     /// Loads in free pivots and along arms of free length.
     pub joints: Vec<JointLoad>,
+    /// Of bodies with coordinates, in which the rigid velocities of these have no part.
+    pub flexible: Vec<FlexibleEquation>,
 }
 
 /// The equations of one body.
@@ -142,11 +145,17 @@ impl Inertial {
 }
 
 impl RigidBodyEquations {
-    /// Bodies without acceleration at poses, under the loads of a time (s).
+    /// Bodies without acceleration at poses, those with coordinates as they start, under the loads of a time (s).
     #[must_use]
     pub fn steady<const D: usize>(problem: &Problem<D>, poses: &[Pose], time: f64) -> Self {
         let mut equations = Self::without_loads(problem.bodies.len());
         equations.add_loads(problem, time, PosesByVelocity::staying(poses));
+        for (body, own) in problem.bodies.iter().zip(problem.coordinates()) {
+            let Some(flexible) = body.flexible() else { continue };
+            let initial = flexible.initial();
+            let steady = FlexibleEquation::steady(own.start, flexible, initial.as_slice(), time);
+            equations.flexible.push(steady);
+        }
         equations
     }
 

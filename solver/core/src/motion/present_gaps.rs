@@ -23,7 +23,7 @@ impl<const D: usize> MovingMesh<D> {
         problem: &Problem<D>,
         state: &State<D>,
     ) -> Result<PresentGaps<'_>, ShapeError> {
-        let shapes = BodyShapes::at(&problem.bodies, state.time)?;
+        let shapes = BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
         let poses = state.in_own_frame(problem, &state.poses);
         Ok(PresentGaps { gaps: self.gaps_at(&shapes), poses })
     }

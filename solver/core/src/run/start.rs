@@ -13,13 +13,13 @@ use crate::state::InitialLevels;
 use crate::step::{SteadyFlow, SteadyTask, solve_steady};
 
 impl<const D: usize> Simulation<D> {
-    /// Meshed with straight sides, a sheet has its shape from the beginning.
+    /// Meshed with straight sides, a sheet has its shape from the beginning, and so has a body with coordinates.
     pub(super) fn settle_moving_walls(&mut self) -> Result<(), RunError> {
         let Self { problem, state, work, moving_mesh, .. } = self;
         let Some(moving) = moving_mesh else { return Ok(()) };
         let poses = state.in_own_frame(problem, &state.poses);
         let mut settled = None;
-        if moving.scene().has_moving_wall() {
+        if moving.scene().has_moving_wall() || problem.n_coordinates() > 0 {
             let shapes = BodyShapes::at(&problem.bodies, 0.0)?;
             let nodes = moving.nodes(&poses, &shapes)?;
             work.mesh.nodes.clone_from(&nodes);

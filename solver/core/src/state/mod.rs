@@ -8,6 +8,7 @@ mod initial_levels;
 mod momentum;
 mod propulsion_history;
 mod saved_mesh;
+mod shape_state;
 #[expect(clippy::module_inception, reason = "the state itself is what the room is named after")]
 mod state;
 mod step_errors;
@@ -22,5 +23,6 @@ pub use initial_levels::InitialLevels;
 pub use momentum::{MomentumBalance, MomentumRecord, Part};
 pub use propulsion_history::{PowerShare, PropulsionHistory, PropulsionStep};
 pub use saved_mesh::is_consistent;
+pub use shape_state::ShapeState;
 pub use state::{Evolving, NewLevel, State, TransferredState, seen_from};
 pub use step_errors::{ErrorOfChange, SquaredError, StepErrors};

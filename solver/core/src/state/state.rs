@@ -12,6 +12,7 @@ use super::initial_levels::InitialLevels;
 use super::momentum::{MomentumBalance, MomentumRecord};
 use super::propulsion_history::{PropulsionHistory, PropulsionStep};
 use super::saved_mesh;
+use super::shape_state::ShapeState;
 use super::step_errors::StepErrors;
 use crate::body::{Pose, Twist, on_mesh};
 use crate::contact::{ContactLoads, MinimumGap};
@@ -64,6 +65,8 @@ pub struct Evolving<const D: usize> {
     pub poses: Vec<Pose>,
     /// Poses of the bodies one step before.
     pub previous_poses: Vec<Pose>,
+    /// Coordinates of bodies that have some.
+    pub shapes: ShapeState,
     /// What is added to the centre of a body for where it is in the mesh (m): whole periods.
     pub image_shifts: Vec<Vector3<f64>>,
     /// Rates of change of the velocities at the nodes (m/s2).
@@ -99,6 +102,10 @@ pub struct NewLevel<const D: usize> {
     pub solution: Solution<D>,
     /// Poses of the bodies, in the laboratory.
     pub poses: Vec<Pose>,
+    /// Coordinates of all bodies.
+    pub coordinates: Vec<f64>,
+    /// Rates of change of their rates.
+    pub coordinate_accelerations: Vec<f64>,
     /// Positions of the nodes, seen from the frame (m).
     pub nodes: Vec<Point<D>>,
     /// Rates of change of the velocities at the nodes (m/s2); `None` leaves those before.
@@ -135,8 +142,11 @@ impl<const D: usize> State<D> {
     #[must_use]
     pub fn at_rest(problem: &Problem<D>, mesh: Mesh<D>) -> Self {
         let n_bodies = problem.bodies.len();
-        let at_rest = Solution::at_rest(&DofLayout::new(&mesh, n_bodies, problem.modes().len()));
-        let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+        let layout = DofLayout::new(&mesh, n_bodies, problem.modes().len());
+        let at_rest = Solution::at_rest(&layout.with_coordinates(problem.n_coordinates()));
+        let mut poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+        let shapes = ShapeState::at_rest(problem.initial_coordinates());
+        problem.follow_coordinates(&mut poses, &shapes.now);
         Self(Evolving {
             step: 0,
             time: 0.0,
@@ -148,6 +158,7 @@ impl<const D: usize> State<D> {
             now: at_rest.clone(),
             previous: at_rest,
             previous_poses: poses.clone(),
+            shapes,
             image_shifts: vec![Vector3::zeros(); n_bodies],
             rates: vec![Point::<D>::zeros(); mesh.n_nodes()],
             accelerations: vec![Twist::default(); n_bodies],
@@ -324,6 +335,8 @@ impl<const D: usize> State<D> {
         }
         own.nodes_before = std::mem::replace(&mut own.nodes, level.nodes);
         own.previous_poses = std::mem::replace(&mut own.poses, level.poses);
+        own.shapes.before = std::mem::replace(&mut own.shapes.now, level.coordinates);
+        own.shapes.accelerations = level.coordinate_accelerations;
         own.previous = std::mem::replace(&mut own.now, level.solution);
         if let Some(rates) = level.rates {
             own.rates = rates;

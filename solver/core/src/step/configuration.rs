@@ -4,16 +4,16 @@ use alewife_mesh::{Mesh, Point};
 
 use super::history::StepHistory;
 use super::newton::FlowEquations;
+use super::placement::Placement;
 use crate::algebra::AffineConstraints;
-use crate::body::Pose;
 use crate::case::Convection as ConvectionChoice;
 use crate::coupling::{Configuration, MeanFlowAt, Problem, RigidBodyEquations, Solution};
 use crate::flow::{Convection, FlowTerms};
 
 /// Mesh and bodies in one iteration for the poses.
 pub(super) struct StepConfiguration<const D: usize> {
-    /// Poses of the bodies, in the laboratory.
-    pub poses: Vec<Pose>,
+    /// Where bodies are.
+    pub placement: Placement,
     /// Positions of the nodes seen from the frame (m).
     pub nodes: Vec<Point<D>>,
     /// Velocity of the nodes seen from the frame (m/s); none where it makes no difference.
@@ -47,8 +47,13 @@ pub(super) struct StepEquations<'a, const D: usize> {
 }
 
 impl<const D: usize> StepEquations<'_, D> {
-    /// Whether one linear system gives the flow.
+    /// Whether one linear system gives flow and bodies.
     pub fn is_linear(&self) -> bool {
+        self.has_known_convection() && self.problem.n_coordinates() == 0
+    }
+
+    /// Whether what convects does not depend on the flow.
+    fn has_known_convection(&self) -> bool {
         !(self.convection == ConvectionChoice::Newton && self.problem.has_convection)
     }
 }
@@ -58,7 +63,7 @@ impl<const D: usize> FlowEquations<D> for StepEquations<'_, D> {
         let mesh_velocity = &self.configuration.mesh_velocity;
         let mut convecting: Vec<Point<D>> = if !self.problem.has_convection {
             vec![Point::<D>::zeros(); mesh_velocity.len()]
-        } else if self.is_linear() {
+        } else if self.has_known_convection() {
             let frame = self.history.frame_velocity;
             self.history.extrapolated.velocity.iter().map(|u| u - frame).collect()
         } else {
@@ -72,7 +77,7 @@ impl<const D: usize> FlowEquations<D> for StepEquations<'_, D> {
     fn terms<'a>(&'a self, convecting_velocity: &'a [Point<D>]) -> FlowTerms<'a, D> {
         let convection = if convecting_velocity.is_empty() {
             Convection::None
-        } else if self.is_linear() {
+        } else if self.has_known_convection() {
             Convection::Oseen
         } else {
             self.problem.newton_convection()

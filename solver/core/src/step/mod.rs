@@ -14,6 +14,7 @@ mod history;
 mod mesh_path;
 mod newton;
 mod place;
+mod placement;
 mod predict;
 mod solve;
 #[expect(clippy::module_inception, reason = "the step itself is what the room is named after")]

@@ -1,7 +1,9 @@
 //! Where bodies get to: velocities extrapolated, contact expected, and poses integrated from velocities.
 
 use super::context::{Guess, Iterate, StepContext};
+use super::error::StepError;
 use super::mesh_path::MeshPath;
+use super::placement::Placement;
 use super::stepper::{Step, TimeStepper};
 use super::workspace::Workspace;
 use crate::body::{Mode, Pose, RigidVector, Twist};
@@ -45,16 +47,22 @@ impl<const D: usize> TimeStepper<'_, D> {
 }
 
 impl<const D: usize> StepContext<'_, D> {
-    /// Poses and flow at the new time, extrapolated, with contact as it is expected there.
-    pub fn predict(&self, work: &Workspace<D>) -> Iterate<D> {
+    /// Bodies and flow at the new time, extrapolated, with contact as it is expected there.
+    ///
+    /// # Errors
+    /// When a body has no shape there.
+    pub fn predict(&self, work: &Workspace<D>) -> Result<Iterate<D>, StepError> {
         let twists = self.extrapolated_twists();
-        let poses = self.integrate(&twists);
+        let poses = self.integrated_poses(&twists);
         let in_contact = self.predict_contact(work, &twists, &poses);
-        Iterate {
-            poses: in_contact.map_or(poses, |twists| self.integrate(&twists)),
+        let poses = in_contact.map_or(poses, |twists| self.integrated_poses(&twists));
+        let history = &self.history;
+        let coordinates = history.coordinates_with(self.state, &history.extrapolated.rates);
+        Ok(Iterate {
+            placement: self.placement(poses, coordinates)?,
             apart: self.state.poses.clone(),
-            guess: Guess::new(self.history.extrapolated.clone()),
-        }
+            guess: Guess::new(history.extrapolated.clone()),
+        })
     }
 
     /// Velocities at the new time with contact as it is expected, where there may be any.
@@ -83,7 +91,7 @@ impl<const D: usize> StepContext<'_, D> {
     /// nothing of what is in the way.
     pub fn keep_gaps_open(&self, iterate: &mut Iterate<D>) {
         let Some(gaps) = self.gaps() else { return };
-        let Iterate { poses, apart, .. } = iterate;
+        let Iterate { placement: Placement { poses, .. }, apart, .. } = iterate;
         let between = |part: f64| -> Vec<Pose> {
             let pairs = apart.iter().zip(&*poses);
             pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect()
@@ -119,7 +127,7 @@ impl<const D: usize> StepContext<'_, D> {
     }
 
     /// Poses at the new time of bodies with these velocities there.
-    pub fn integrate(&self, twists: &[Twist]) -> Vec<Pose> {
+    pub fn integrated_poses(&self, twists: &[Twist]) -> Vec<Pose> {
         let step = &self.history.step;
         let mut poses = self.stepper.integrate_apart(self.state, step, twists);
         self.stepper.problem.apply_joints(&mut poses, step.time);

@@ -5,8 +5,8 @@ use super::context::{Guess, Iterate, StepContext};
 use super::coupled_flow::{CoupledFlow, FlowUnderLoads};
 use super::error::StepError;
 use super::newton::{Criterion, Flow, newton};
+use super::placement::Placement;
 use super::workspace::Workspace;
-use crate::body::Pose;
 use crate::contact::{ByMobility, ByQuasiNewton, ContactLoads, CoupledSolver};
 
 impl<const D: usize> StepContext<'_, D> {
@@ -30,7 +30,7 @@ impl<const D: usize> StepContext<'_, D> {
         method: &mut dyn CoupledSolver<StepError>,
         guess: Guess<D>,
     ) -> Result<CoupledFlow<D>, StepError> {
-        let contact = self.contact_at(&configuration.poses, &configuration.bodies);
+        let contact = self.contact_at(&configuration.placement.poses, &configuration.bodies);
         let first = contact.as_ref().and_then(|contact| method.first_loads(contact));
         if let Some(loads) = &first {
             configuration.bodies.add_external(&loads.wrenches);
@@ -74,10 +74,10 @@ impl<const D: usize> StepContext<'_, D> {
         &self,
         configuration: StepConfiguration<D>,
         flow: CoupledFlow<D>,
-        reached: Vec<Pose>,
+        reached: Placement,
     ) -> Iterate<D> {
         let CoupledFlow { solution, scale, n_systems, .. } = flow;
         let guess = Guess { solution, scale: Some(scale), n_systems };
-        Iterate { poses: reached, apart: configuration.poses, guess }
+        Iterate { placement: reached, apart: configuration.placement.poses, guess }
     }
 }

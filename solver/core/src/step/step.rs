@@ -34,14 +34,14 @@ impl<const D: usize> TimeStepper<'_, D> {
     ) -> Result<StepResult<D>, StepError> {
         let step = StepContext::new(*self, state, bdf)?;
         let mut contact = step.contact_method(work);
-        let mut iterate = step.predict(work);
+        let mut iterate = step.predict(work)?;
         for _ in 0..MAX_POSE_ITERATIONS {
             self.check_stop(state)?;
             step.keep_gaps_open(&mut iterate);
-            let mut configuration = step.place(work, iterate.poses)?;
+            let mut configuration = step.place(work, iterate.placement)?;
             let flow = step.solve(work, &mut configuration, contact.as_mut(), iterate.guess)?;
-            let reached = step.integrate(&flow.solution.twists);
-            if self.path.has_converged(&configuration.poses, &reached, &flow.contact) {
+            let reached = step.integrate(&flow.solution)?;
+            if self.path.has_converged(&configuration.placement, &reached, &flow.contact) {
                 return step.finish(work, &configuration, flow, reached);
             }
             iterate = step.iterate_again(configuration, flow, reached);

@@ -34,6 +34,9 @@ fn held_pressure<const D: usize>(
     layout.vertices().find(|&vertex| constraints.row(layout.pressure(vertex)).is_empty())
 }
 
+/// Velocities that stand for one body.
+const MODES: [u8; 6] = [0, 1, 2, 3, 4, 5];
+
 /// What each free unknown is.
 pub(in super::super) fn saddle_point<const D: usize>(
     layout: &DofLayout<D>,
@@ -61,6 +64,10 @@ pub(in super::super) fn saddle_point<const D: usize>(
             let mode = u8::try_from(mode.index()).expect("a body has six modes");
             set(layout.rigid(body, position), Part::Rigid { body: index(body), mode });
         }
+    }
+    for (coordinate, mode) in (0..layout.n_coordinates).zip(MODES.into_iter().cycle()) {
+        let body = index(layout.n_bodies + coordinate / MODES.len());
+        set(layout.rate(coordinate), Part::Rigid { body, mode });
     }
     SaddlePoint {
         parts: parts.into_iter().flatten().collect(),

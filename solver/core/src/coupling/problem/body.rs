@@ -9,6 +9,7 @@ use super::in_time::TimeValue;
 use super::joint::Joint;
 use crate::body::{Inertia, Mode, Pose, RigidVector, Wrench};
 use crate::gait::{DeformedOutline, Gait, ShapeMotion};
+use crate::structure::Flexible;
 
 /// What determines one rigid velocity of a body.
 pub enum Drive {
@@ -71,7 +72,7 @@ pub struct RigidBody {
     pub spring: Option<Spring>,
     /// Slip of the surface.
     pub gait: Option<Box<dyn Gait>>,
-    /// How its outline deforms.
+    /// How its outline deforms: in time, or with coordinates of its own, whose rates are further unknowns.
     pub shape: Option<Arc<dyn ShapeMotion>>,
     /// The joint by which it hangs on another body; its pose and velocity follow from it, but for the
     /// rotation in a free pivot.
@@ -104,6 +105,12 @@ impl RigidBody {
     #[must_use]
     pub fn free(self) -> Self {
         Self { drives: [const { Drive::Free }; 6], ..self }
+    }
+
+    /// What has coordinates beside the pose, if anything has.
+    #[must_use]
+    pub fn flexible(&self) -> Option<&Arc<dyn Flexible>> {
+        self.shape.as_ref()?.flexible()
     }
 
     /// What determines a velocity.

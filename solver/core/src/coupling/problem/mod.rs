@@ -7,8 +7,10 @@ mod joint;
 mod mean_flow;
 mod side;
 
+use std::ops::Range;
+
 use alewife_mesh::{BoundaryId, Point};
-use nalgebra::Matrix6;
+use nalgebra::{DVector, Matrix6};
 
 pub use body::{Drive, RigidBody, Spring, second_moments};
 pub use group::Group;
@@ -18,9 +20,10 @@ pub use joint::{Arm, Joint, JointLaw, Length, Pivot, Turn, angle_about};
 pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
 pub use side::{Side, VelocityProfile};
 
-use crate::body::{Mode, Modes, Twist, on_mesh};
+use crate::body::{Mode, Modes, Pose, Twist, on_mesh};
 use crate::flow::{BodyForce, Convection};
 use crate::space::Metric;
+use crate::structure::{Held, weighted};
 
 /// Everything that is given.
 pub struct Problem<const D: usize> {
@@ -58,6 +61,48 @@ impl<const D: usize> Problem<D> {
             (Metric::Revolved, _) => Modes::AXISYMMETRIC,
             (Metric::Cartesian, 2) => Modes::PLANAR,
             (Metric::Cartesian, _) => Modes::SPATIAL,
+        }
+    }
+
+    /// The coordinates each body has beside its pose, among those of all bodies.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<Range<usize>> {
+        coordinate_ranges(&self.bodies)
+    }
+
+    /// Coordinates of all bodies together.
+    #[must_use]
+    pub fn n_coordinates(&self) -> usize {
+        self.coordinates().last().map_or(0, |last| last.end)
+    }
+
+    /// Coordinates of all bodies at time zero.
+    #[must_use]
+    pub fn initial_coordinates(&self) -> Vec<f64> {
+        initial_coordinates(&self.bodies)
+    }
+
+    /// Coordinates that are given at a time (s), numbered through all bodies.
+    #[must_use]
+    pub fn held_coordinates(&self, time: f64) -> Vec<Held> {
+        let bodies = self.bodies.iter().zip(self.coordinates());
+        let held = |(body, own): (&RigidBody, Range<usize>)| {
+            let held = body.flexible().map(|flexible| flexible.held(time)).unwrap_or_default();
+            let numbered =
+                move |held: Held| Held { coordinate: own.start + held.coordinate, ..held };
+            held.into_iter().map(numbered).collect::<Vec<_>>()
+        };
+        bodies.flat_map(held).collect()
+    }
+
+    /// Puts bodies with coordinates where their centres are by these of all bodies.
+    pub fn follow_coordinates(&self, poses: &mut [Pose], coordinates: &[f64]) {
+        let bodies = self.bodies.iter().zip(self.coordinates());
+        for ((body, own), pose) in bodies.zip(poses) {
+            let Some(flexible) = body.flexible() else { continue };
+            let own = DVector::from_column_slice(&coordinates[own]);
+            let center = weighted(&flexible.center_weights(), &own);
+            pose.center = body.pose.center + body.pose.to_world(&center);
         }
     }
 
@@ -199,4 +244,23 @@ impl<const D: usize> Problem<D> {
             (true, true) => Convection::NewtonInFrame,
         }
     }
+}
+
+/// Coordinates of all these bodies at time zero.
+#[must_use]
+pub fn initial_coordinates(bodies: &[RigidBody]) -> Vec<f64> {
+    let flexible = bodies.iter().filter_map(RigidBody::flexible);
+    flexible.flat_map(|body| body.initial().as_slice().to_vec()).collect()
+}
+
+/// The coordinates each body has beside its pose, among those of all these bodies.
+#[must_use]
+pub fn coordinate_ranges(bodies: &[RigidBody]) -> Vec<Range<usize>> {
+    let mut end = 0;
+    let next = |body: &RigidBody| {
+        let start = end;
+        end += body.flexible().map_or(0, |flexible| flexible.n_coordinates());
+        start..end
+    };
+    bodies.iter().map(next).collect()
 }

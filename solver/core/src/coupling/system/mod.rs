@@ -1,9 +1,9 @@
 //! One linear system for the fluid and every body in it.
 //!
 //! A step of Newton's method on R(x) = 0 with x = P y + g: solve P^T J P dy = -P^T R(x). On the
-//! rows of U and omega, P^T gathers minus the fluid's load, to which Newton and Euler add
-//! m dU/dt - F_ext and d(I omega)/dt - T_ext: no interface stress, no multiplier, and no added-mass
-//! instability at any density ratio.
+//! rows of the velocities of a body, P^T gathers minus the fluid's load. To those of U and omega Newton and Euler add
+//! m dU/dt - F_ext and d(I omega)/dt - T_ext, to those of its coordinates its structure adds M dv/dt + f(q, v, t): no
+//! interface stress, no multiplier, and no added-mass instability at any density ratio.
 
 mod diagnosis;
 mod mobility;
@@ -17,11 +17,12 @@ use alewife_mesh::{Mesh, Point};
 
 use self::nullspace::TranslationNullspace;
 use self::numbering::{Numbering, free_velocities};
+use self::rigid_unknowns::blocks_of_bodies;
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
 use super::linear_system::{
-    Coefficients, Discretised, SolverChoice, SystemSolver, saddle_point, system_solver,
+    Coefficients, Discretised, NewSystem, SolverChoice, SystemSolver, saddle_point, system_solver,
 };
 use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, surface_loads};
 use super::mass_tolerance::mass_tolerance;
@@ -31,6 +32,7 @@ use super::problem::{MeanFlowAt, Problem};
 use super::rigid_equations::RigidBodyEquations;
 use super::shapes::BodyShapes;
 use super::solution::Solution;
+use super::surface::RestPlaces;
 use crate::algebra::{Accuracy, AffineConstraints, SolverMemory, SparseMatrix, Unknowns};
 use crate::body::{Modes, Pose};
 use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
@@ -52,6 +54,15 @@ pub struct Configuration<'a, const D: usize> {
     pub mean_flow: MeanFlowAt<D>,
 }
 
+/// Bodies in a mesh, with what holds while the mesh lasts.
+#[derive(Debug, Clone)]
+pub struct MeshedBodies<'a> {
+    /// Where they are.
+    pub at: BodiesAt<'a>,
+    /// Where nodes on bodies with coordinates are at rest (m).
+    pub rest_places: RestPlaces,
+}
+
 /// Pattern, factorisation and workspace for the systems on one mesh.
 pub struct FluidSystem<const D: usize> {
     /// Numbering of the raw unknowns.
@@ -61,6 +72,8 @@ pub struct FluidSystem<const D: usize> {
     /// Number of free unknowns.
     pub n_unknowns: usize,
     pub(super) modes: Modes,
+    /// Where nodes on bodies with coordinates are at rest (m).
+    rest_places: RestPlaces,
     facet_rule: FacetRule<D>,
     assembly: Assembly<D>,
     pub(super) linear: Box<dyn SystemSolver>,
@@ -93,13 +106,31 @@ impl<const D: usize> FluidSystem<D> {
         unknown_frame: bool,
         choice: SolverChoice,
     ) -> Self {
-        let modes = problem.modes();
-        let layout = DofLayout::new(mesh, problem.bodies.len(), modes.len());
-        let boundaries = Boundaries::new(mesh);
         // Which unknowns are constrained does not depend on how bodies deform
         let shapes = BodyShapes::rigid(problem.bodies.len());
-        let constraints = Constrainer { problem, mesh, layout: &layout }
-            .constraints(&boundaries, BodiesAt { poses, shapes: &shapes });
+        let bodies = MeshedBodies {
+            at: BodiesAt { poses, shapes: &shapes },
+            rest_places: RestPlaces::new(),
+        };
+        Self::with_bodies(problem, mesh, bodies, unknown_frame, choice)
+    }
+
+    /// The same with bodies that may have coordinates.
+    #[must_use]
+    pub fn with_bodies(
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        bodies: MeshedBodies<'_>,
+        unknown_frame: bool,
+        choice: SolverChoice,
+    ) -> Self {
+        let MeshedBodies { at, rest_places } = bodies;
+        let modes = problem.modes();
+        let layout = DofLayout::new(mesh, problem.bodies.len(), modes.len())
+            .with_coordinates(problem.n_coordinates());
+        let boundaries = Boundaries::new(mesh);
+        let constraints = Constrainer { problem, mesh, layout: &layout, rest_places: &rest_places }
+            .constraints(&boundaries, at);
         let frame = problem.frame.filter(|_| unknown_frame);
         let assembly = Assembly::new(
             mesh,
@@ -114,7 +145,9 @@ impl<const D: usize> FluidSystem<D> {
         let driven = problem.mean_flow.as_ref();
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
         let saddle_point = saddle_point(&layout, &constraints, modes);
-        let linear = system_solver(&assembly, &constraints, saddle_point, choice);
+        let blocks = blocks_of_bodies(problem, &layout, &constraints);
+        let system = NewSystem { constraints: &constraints, saddle_point, blocks };
+        let linear = system_solver(&assembly, system, choice);
         let is_free = free_velocities(&layout, problem.bodies.len(), modes, &constraints);
         Self {
             layout,
@@ -123,6 +156,7 @@ impl<const D: usize> FluidSystem<D> {
             numbering: Numbering { choice, frame, is_free },
             n_unknowns: constraints.n_unknowns(),
             modes,
+            rest_places,
             facet_rule: FacetRule::new(problem.metric),
             assembly,
             linear,
@@ -230,7 +264,8 @@ impl<const D: usize> FluidSystem<D> {
         mesh: &Mesh<D>,
         bodies: BodiesAt<'_>,
     ) -> AffineConstraints {
-        Constrainer { problem, mesh, layout: &self.layout }.constraints(&self.boundaries, bodies)
+        let Self { layout, rest_places, boundaries, .. } = self;
+        Constrainer { problem, mesh, layout, rest_places }.constraints(boundaries, bodies)
     }
 
     /// Takes note that the mesh has moved.
@@ -275,6 +310,11 @@ impl<const D: usize> FluidSystem<D> {
         }
         let row = |body: usize, position: usize| self.layout.rigid(body, position);
         at.bodies.add_residual(&solution.twists, self.modes, row, &mut raw);
+        for equation in &at.bodies.flexible {
+            for (own, lack) in equation.residual(&solution.rates).iter().enumerate() {
+                raw[self.layout.rate(equation.first + own)] += lack;
+            }
+        }
         if let Some(cell) = &self.cell {
             let force = solution.pressure_gradient;
             cell.add(&self.layout, self.modes, [&Point::<D>::zeros(), &force], &mut raw);
@@ -304,7 +344,7 @@ impl<const D: usize> FluidSystem<D> {
             self.linear.assemble(&mut |scatter| {
                 assemble(assembly, at.mesh, at.constraints, terms, &fields, scatter);
             });
-            self.add_rigid_matrix(at);
+            self.add_body_matrix(at, &solution.rates);
         });
         if let Some(nullspace) = &self.nullspace {
             nullspace.check_balance(at.bodies, &at.mean_flow)?;

@@ -8,6 +8,7 @@ use crate::case::{BodyQuantity, Case, Geometry, JointQuantity};
 use crate::coupling::{
     BodyLoads, BodyShapes, BodyStates, JointReport, Problem, RigidBody, ShapeError, joint_reports,
 };
+use crate::gait::RecoilCorrection;
 use crate::run::RunError;
 use crate::run::simulation::Simulation;
 use crate::run::snapshot::BodyReport;
@@ -108,10 +109,18 @@ pub(super) fn body_reports<const D: usize>(
             friction: stress.friction(rigid.boundary),
             contact: state.contact.wrenches[body],
             power: loads[body].power,
-            recoil: rigid.deformed_at(state.time)?.map(|deformed| deformed.recoil),
+            recoil: recoil(rigid, state.time)?,
         })
     };
     problem.bodies.iter().enumerate().map(report).collect()
+}
+
+/// What is subtracted from the gait of a body that deforms by itself.
+fn recoil(rigid: &RigidBody, time: f64) -> Result<Option<RecoilCorrection>, ShapeError> {
+    if rigid.flexible().is_some() {
+        return Ok(None);
+    }
+    Ok(rigid.deformed_at(time, &[])?.map(|deformed| deformed.recoil))
 }
 
 /// The joints of all bodies, in the order of their children.
@@ -130,7 +139,7 @@ pub(in crate::run) fn measure_joints<const D: usize>(
     let loads: Vec<Wrench> =
         loads.iter().zip(contact).map(|(fluid, contact)| fluid.load + *contact).collect();
     let now = BodyStates {
-        shapes: &BodyShapes::at(&problem.bodies, state.time)?,
+        shapes: &BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?,
         poses: &state.poses,
         twists: &state.now.twists,
         accelerations: &state.accelerations,

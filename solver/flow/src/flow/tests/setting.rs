@@ -95,7 +95,7 @@ impl<const D: usize> Setting<D> {
             mesh,
             metric,
             layout,
-            maps: assembly.maps(&constraints),
+            maps: assembly.maps(&constraints, &[]),
             constraints,
             assembly,
         }

@@ -3,7 +3,7 @@
 use alewife_mesh::{GaussRule, Spline};
 use num_dual::{Dual64, DualNum};
 
-use super::number::cross;
+use crate::gait::number::cross;
 
 /// A spline with the spline of its velocities: the curve is linear in its points.
 #[derive(Debug, Clone)]
