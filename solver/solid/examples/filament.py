@@ -1,4 +1,4 @@
-"""Draws what the example `filament` prints: `filament.py filament.csv docs/pictures/filament.png`."""
+"""Draws what the example prints: `filament.py filament.csv docs/pictures/filament.png`."""
 
 import csv
 import sys
