@@ -58,17 +58,6 @@ pub trait Flexible: Structure + std::fmt::Debug {
     fn center_weights(&self) -> Vec<Weight>;
 }
 
-/// A coordinate that is given, and its velocity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Held {
-    /// Which coordinate.
-    pub coordinate: usize,
-    /// Its value.
-    pub value: f64,
-    /// Its velocity (1/s).
-    pub rate: f64,
-}
-
 /// What a coordinate counts in a place, or its velocity in a velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weight {
@@ -91,4 +80,35 @@ pub struct Tangents {
     pub stiffness: DMatrix<f64>,
     /// By velocities: the damping C.
     pub damping: DMatrix<f64>,
+}
+
+/// An outer load Q, such as weight or drag, which may depend on the motion of the structure.
+pub trait Load: Send + Sync {
+    /// The load Q (n) at a time (s).
+    fn load(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> DVector<f64>;
+
+    /// How the load depends on coordinates and on velocities, at a time (s): its derivatives in place of those
+    /// of inner forces.
+    fn tangents(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> Tangents;
+}
+
+/// A coordinate that is given, and its velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Held {
+    /// Which coordinate.
+    pub coordinate: usize,
+    /// Its value.
+    pub value: f64,
+    /// Its velocity (1/s).
+    pub rate: f64,
 }

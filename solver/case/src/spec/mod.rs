@@ -2,6 +2,7 @@
 
 pub(crate) mod body;
 pub(crate) mod case;
+pub(crate) mod comparison;
 pub(crate) mod contact;
 pub(crate) mod domain;
 pub(crate) mod extent;
@@ -12,9 +13,6 @@ pub(crate) mod mesh_file;
 #[cfg(test)]
 mod number;
 pub(crate) mod output;
-pub(crate) mod reference;
-pub(crate) mod statistic;
 pub(crate) mod time;
 mod time_function;
-pub(crate) mod uncertainty;
 pub(crate) mod units;

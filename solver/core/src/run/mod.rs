@@ -3,13 +3,13 @@
 mod build;
 mod case_mesh;
 mod control;
-mod cycle_report;
 mod error;
 mod excess;
 mod free_memory;
 mod measure;
 mod planar;
 mod prepare;
+mod reports;
 mod resume;
 #[expect(clippy::module_inception, reason = "the run itself is what the room is named after")]
 mod run;
@@ -20,16 +20,15 @@ mod solve;
 mod spatial;
 mod start;
 mod step_control;
-mod step_report;
 mod timed_step;
 mod watch;
 
 pub use build::{BodyRecoil, build_problem, motion_settings, recoils, shape_motion, sizing};
 pub use case_mesh::{CaseMesh, Dimension, InitialMesh, build_mesh};
-pub use cycle_report::CycleReport;
 pub use error::RunError;
 pub use excess::Excess;
 pub use prepare::simulation_on;
+pub use reports::{CycleReport, StepErrorReport};
 pub use resume::{Reference, ResumeError, SavedState, VERSION as STATE_VERSION};
 pub use run::RunSummary;
 pub use series::Series;
@@ -37,5 +36,4 @@ pub use simulation::{Attempt, Simulation, StepScheme};
 pub use snapshot::{BodyReport, LastState, Observer, Snapshot};
 pub use solve::{Solve, simulate, simulate_from};
 pub use step_control::{Piece, StepControl};
-pub use step_report::StepErrorReport;
 pub use timed_step::{Effort, TimedStep};

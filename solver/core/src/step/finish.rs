@@ -1,11 +1,10 @@
 //! The end of a step: loads, error, and the level it leads to, with the mesh where the bodies get to.
 
+use super::accuracy::{acceleration, local_error, pose_errors};
 use super::configuration::StepConfiguration;
-use super::contact_energy::acceleration;
 use super::context::StepContext;
 use super::coupled_flow::CoupledFlow;
 use super::error::StepError;
-use super::error_estimate::{local_error, pose_errors};
 use super::placement::Placement;
 use super::stepper::{StepReport, StepResult, TimeStepper};
 use super::workspace::Workspace;

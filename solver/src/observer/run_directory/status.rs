@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::history::History;
+use super::read_back::History;
 use super::restarts::Restarts;
 use super::write_times::WriteTimes;
 use crate::case::{Case, TimeSettings};

@@ -4,9 +4,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::restarts::Restarts;
 use super::series_rows::read_series;
 use crate::case::Cadence;
+use crate::observer::run_directory::restarts::Restarts;
 use crate::observer::system::AtPath;
 use crate::run::Series;
 

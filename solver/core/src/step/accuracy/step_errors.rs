@@ -3,13 +3,13 @@
 //! A step is right to second order, so that its error is in proportion to the second difference of the velocity: what the new
 //! velocity differs by from that on the line through the two before. It counts with a factor that was measured.
 
-use super::context::StepContext;
 use super::error_estimate::pose_errors;
-use super::stepper::{Step, TimeStepper};
 use crate::body::{Mode, Pose, RigidVector};
 use crate::case::Convection;
 use crate::coupling::{Problem, Solution};
 use crate::state::{ErrorOfChange, SquaredError, State, StepErrors};
+use crate::step::context::StepContext;
+use crate::step::stepper::{Step, TimeStepper};
 
 /// Error over second difference, with convection extrapolated: in the lift of `dfg-2d-2` with `mesh.scale = 2` it was 3.3,
 /// 3.3, 2.5 and 2.3 times with steps of 0.0025, 0.005, 0.01 and 0.02.
@@ -39,7 +39,7 @@ pub fn error_of_second_difference<const D: usize>(
 
 impl<const D: usize> StepContext<'_, D> {
     /// The errors of a step to a flow and to poses; none after a jump.
-    pub(super) fn step_errors(&self, new: &Solution<D>, reached: &[Pose]) -> StepErrors {
+    pub(in crate::step) fn step_errors(&self, new: &Solution<D>, reached: &[Pose]) -> StepErrors {
         let Self { stepper, state, history, .. } = self;
         let step = &history.step;
         let errors = if step.bdf.is_second_order() {
@@ -105,7 +105,7 @@ fn first_order_pose_errors<const D: usize>(
 
 impl<const D: usize> TimeStepper<'_, D> {
     /// Errors of new poses beside the ways to them; rotations count by the reach of a body.
-    pub(super) fn errors_of_ways(
+    pub(in crate::step) fn errors_of_ways(
         &self,
         state: &State<D>,
         reached: &[Pose],

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Series;
-use super::simulation::Simulation;
 use crate::body::{Mode, on_mesh};
 use crate::case::{Scheme, Unsteady};
 use crate::coupling::{Drive, Problem, RigidBody};
+use crate::run::Series;
+use crate::run::simulation::Simulation;
 use crate::state::SquaredError;
 use crate::step::error_of_second_difference;
 
@@ -45,7 +45,7 @@ pub struct StepErrorReport {
 impl StepErrorReport {
     /// Warns where fixed steps are too long, with those that would do; of a flow past bodies in which vortices need a step of
     /// `vortices` (s) at most.
-    pub(super) fn log(&self, settings: &Unsteady, vortices: f64) {
+    pub(in crate::run) fn log(&self, settings: &Unsteady, vortices: f64) {
         let parts = [
             ("velocity of the fluid", self.velocity),
             ("ways of the bodies", self.ways),
@@ -81,7 +81,7 @@ impl StepErrorReport {
 
 impl<const D: usize> Simulation<D> {
     /// The longest step (s) with which vortices behind bodies are followed; infinite where there are none.
-    pub(super) fn longest_step_of_vortices(&self) -> f64 {
+    pub(in crate::run) fn longest_step_of_vortices(&self) -> f64 {
         let Self { problem, state, .. } = self;
         if !problem.has_convection || problem.metric.is_revolved() {
             return f64::INFINITY;
@@ -110,7 +110,7 @@ struct Component {
 }
 
 /// The errors of the forces on bodies that are held or moved, by their second differences.
-pub(super) struct LoadErrors {
+pub(in crate::run) struct LoadErrors {
     /// Components of the forces, of each body.
     components: Vec<Vec<Component>>,
     /// Error of a second difference of one.

@@ -1,10 +1,11 @@
 //! The local error of a step, from its difference from a prediction of the same order.
 
-use super::stepper::{Step, TimeStepper};
 use crate::body::{Mode, Pose, RigidVector};
 use crate::contact::Gaps;
 use crate::coupling::Solution;
 use crate::state::State;
+use crate::step::mesh_path::MeshPath;
+use crate::step::stepper::{Step, TimeStepper};
 
 /// An error of the smallest gap, relative to it, counts as one of the velocities so many times as
 /// large: while a gap closes its errors have one sign and add up, over some seventy steps from a
@@ -16,7 +17,7 @@ const NEARLY_AT_REST: f64 = 1e-3;
 
 /// Estimate of the error of a step, relative to the size of the velocities; zero for a step of first
 /// order.
-pub(super) fn local_error<const D: usize>(
+pub(in crate::step) fn local_error<const D: usize>(
     stepper: &TimeStepper<'_, D>,
     state: &State<D>,
     step: &Step,
@@ -53,7 +54,7 @@ pub(super) fn local_error<const D: usize>(
 }
 
 /// Estimate of the errors of the poses that a step of BDF2 leads to.
-pub(super) fn pose_errors<const D: usize>(
+pub(in crate::step) fn pose_errors<const D: usize>(
     state: &State<D>,
     step: &Step,
     reached: &[Pose],
@@ -72,7 +73,7 @@ pub(super) fn pose_errors<const D: usize>(
 impl<const D: usize> TimeStepper<'_, D> {
     /// The change of the smallest gap by errors of poses, relative to it or to the range of contact
     /// where that is larger, as it counts beside errors of velocities.
-    pub(super) fn gap_error(
+    pub(in crate::step) fn gap_error(
         &self,
         gaps: Option<&dyn Gaps>,
         state: &State<D>,
@@ -94,10 +95,10 @@ impl<const D: usize> TimeStepper<'_, D> {
     }
 }
 
-impl<const D: usize> super::mesh_path::MeshPath<'_, D> {
+impl<const D: usize> MeshPath<'_, D> {
     /// Length by which a rigid motion counts as a displacement of the surface (m): the reach of the body
     /// for rotations, where the mesh follows bodies.
-    pub(super) fn length_of(&self, body: usize, mode: Mode) -> f64 {
+    pub(in crate::step) fn length_of(&self, body: usize, mode: Mode) -> f64 {
         if !mode.is_rotation() {
             return 1.0;
         }

@@ -1,5 +1,7 @@
 //! Bodies on joints in space: what is given of them holds, and loads through joints are those of their laws.
 
+mod sliders;
+
 use alewife_core::case::Model;
 use alewife_core::run::{RunSummary, simulate};
 use nalgebra::{UnitQuaternion, Vector3};

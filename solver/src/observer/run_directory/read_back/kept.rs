@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use super::series_rows::{SERIES_FILE, series_of};
-use super::status::{RunState, Status};
+use crate::observer::run_directory::status::{RunState, Status};
 use crate::observer::system::AtPath;
 use crate::run::RunSummary;
 use crate::timing::{Stage, Timing};

@@ -1,9 +1,9 @@
 //! `CycleReport`: how far a swimmer got in its first cycle, and whether steps are too long for it.
 
-use super::simulation::Simulation;
 use crate::body::Pose;
 use crate::case::Scheme;
 use crate::coupling::Group;
+use crate::run::simulation::Simulation;
 
 /// Error of the distance of a cycle, relative to it, above which there is a warning.
 const NOTABLE: f64 = 0.02;
@@ -30,7 +30,7 @@ pub struct CycleReport {
 
 impl<const D: usize> Simulation<D> {
     /// Reports of the swimmers that are at the end of their first cycle.
-    pub(super) fn first_cycles_that_end(&mut self) -> Vec<CycleReport> {
+    pub(in crate::run) fn first_cycles_that_end(&mut self) -> Vec<CycleReport> {
         let Self { problem, state, .. } = self;
         let mut reports = Vec::new();
         for (index, group) in problem.groups.iter().enumerate() {
@@ -63,7 +63,7 @@ fn length(group: &Group, poses: &[Pose]) -> f64 {
 
 impl CycleReport {
     /// Warns where fixed steps of a method are too long.
-    pub(super) fn log(&self, method: Scheme) {
+    pub(in crate::run) fn log(&self, method: Scheme) {
         let Self { swimmer, distance, nowhere, .. } = self;
         let Some(error) = self.error else {
             tracing::info!(

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use super::{alewife, done};
+use crate::command_line::{alewife, done};
 
 /// A run of a few milliseconds.
 const TINY: &str = "

@@ -1,16 +1,16 @@
 //! The energy of bodies in contact over a step, by which it is too long or not.
 
-use super::configuration::StepConfiguration;
-use super::context::StepContext;
-use super::stepper::TimeStepper;
 use crate::body::{Pose, Twist};
 use crate::contact::{BodyInStep, ContactEnergy, ContactLoads, StepEnergy};
 use crate::coupling::RigidBodyEquation;
+use crate::step::configuration::StepConfiguration;
+use crate::step::context::StepContext;
+use crate::step::stepper::TimeStepper;
 use crate::time::Bdf;
 
 impl<const D: usize> StepContext<'_, D> {
     /// What the step does to the energy of bodies in contact.
-    pub(super) fn contact_energy(
+    pub(in crate::step) fn contact_energy(
         &self,
         configuration: &StepConfiguration<D>,
         twists: &[Twist],
@@ -46,6 +46,10 @@ impl<const D: usize> StepContext<'_, D> {
 }
 
 /// The rate of the velocities of a body at the new time (m/s2, rad/s2).
-pub(super) fn acceleration(bdf: &Bdf, twist: &Twist, equation: &RigidBodyEquation) -> Twist {
+pub(in crate::step) fn acceleration(
+    bdf: &Bdf,
+    twist: &Twist,
+    equation: &RigidBodyEquation,
+) -> Twist {
     Twist::from_vector(&(twist.to_vector() * bdf.next + equation.history))
 }

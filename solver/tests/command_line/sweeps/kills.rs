@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::{DISC, FLUID};
+use crate::command_line::{DISC, FLUID};
 
 /// A run with checkpoints all the time.
 const RUN: &str = "

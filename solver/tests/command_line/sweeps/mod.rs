@@ -1,5 +1,8 @@
 //! Sweeps: their points, what a repeated call makes, what fails, and the table and the script of them.
 
+mod kills;
+mod races;
+
 use std::path::Path;
 use std::process::{Command, Output};
 
