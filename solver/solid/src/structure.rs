@@ -101,14 +101,3 @@ pub trait Load: Send + Sync {
         time: f64,
     ) -> Tangents;
 }
-
-/// A coordinate that is given, and its velocity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Held {
-    /// Which coordinate.
-    pub coordinate: usize,
-    /// Its value.
-    pub value: f64,
-    /// Its velocity (1/s).
-    pub rate: f64,
-}

@@ -23,6 +23,8 @@ pub struct Motion<'a> {
     step: f64,
     now: Level,
     before: Option<Level>,
+    /// Two steps ago.
+    earlier: Option<Level>,
     /// M dv/dt + f - Q at the end of the last step, which is zero where nothing is held.
     residual: DVector<f64>,
 }
@@ -33,7 +35,7 @@ impl<'a> Motion<'a> {
     pub fn new(system: &'a DrySystem<'a>, start: Level, step: f64) -> Self {
         let residual = DVector::zeros(start.coordinates.len());
         let mass = system.structure().mass();
-        Self { system, mass, step, now: start, before: None, residual }
+        Self { system, mass, step, now: start, before: None, earlier: None, residual }
     }
 
     /// The structure as it is.
@@ -58,6 +60,34 @@ impl<'a> Motion<'a> {
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
         0.5 * self.now.velocities.dot(&(&self.mass * &self.now.velocities))
+    }
+
+    /// Energy (J) that the last step has lost by its backward difference alone: a quarter of the squares of the second
+    /// differences of velocities, by the mass, and of coordinates, by the stiffness. It is exact in linear problems,
+    /// for the energy of [`Self::energy_of_scheme`]; zero before the third step.
+    #[must_use]
+    pub fn loss_of_scheme(&self) -> f64 {
+        let (Some(before), Some(earlier)) = (&self.before, &self.earlier) else { return 0.0 };
+        let second =
+            |of: fn(&Level) -> &DVector<f64>| of(&self.now) - of(before) * 2.0 + of(earlier);
+        let stiffness = self.system.tangents(&self.now).stiffness;
+        0.25 * self.squares(&second(velocities), &second(coordinates), &stiffness)
+    }
+
+    /// Half of the energies (J) of the present level and of the one that is extrapolated from it, about coordinates at
+    /// rest, in the norms of mass and stiffness: what the backward difference keeps in linear problems.
+    #[must_use]
+    pub fn energy_of_scheme(&self, rest: &DVector<f64>) -> f64 {
+        let before = self.before.as_ref().unwrap_or(&self.now);
+        let stiffness = self.system.tangents(&self.now).stiffness;
+        let ahead = |of: fn(&Level) -> &DVector<f64>| of(&self.now) * 2.0 - of(before);
+        let now = self.squares(&self.now.velocities, &(&self.now.coordinates - rest), &stiffness);
+        let next = self.squares(&ahead(velocities), &(ahead(coordinates) - rest), &stiffness);
+        0.25 * (now + next)
+    }
+
+    fn squares(&self, v: &DVector<f64>, q: &DVector<f64>, stiffness: &DMatrix<f64>) -> f64 {
+        v.dot(&(&self.mass * v)) + q.dot(&(stiffness * q))
     }
 
     /// Makes a step.
@@ -100,9 +130,18 @@ impl<'a> Motion<'a> {
         })?;
         let next = level(&velocities);
         self.residual = unbalanced(&next);
-        self.before = Some(std::mem::replace(&mut self.now, next));
+        let now = std::mem::replace(&mut self.now, next);
+        self.earlier = self.before.replace(now);
         Ok(())
     }
+}
+
+fn coordinates(level: &Level) -> &DVector<f64> {
+    &level.coordinates
+}
+
+fn velocities(level: &Level) -> &DVector<f64> {
+    &level.velocities
 }
 
 /// A backward difference, but for the new level.
@@ -125,10 +164,6 @@ impl Difference {
             let recent = of(now) * older[0];
             before.map_or_else(|| recent.clone(), |before| &recent + of(before) * older[1])
         };
-        Self {
-            leading,
-            coordinates: sum(|level| &level.coordinates) / -leading,
-            velocities: sum(|level| &level.velocities),
-        }
+        Self { leading, coordinates: sum(coordinates) / -leading, velocities: sum(velocities) }
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use super::error::RodError;
 use super::kinematics::{Gradients, Kinematics, StrainKind, gradients, second_derivatives};
-use super::rod_properties::{Flexure, RodProperties, positive};
+use super::properties::{Flexure, RodProperties, positive};
 use crate::structure::{Structure, Tangents};
 
 /// A rod whose elements have N coordinates and S strains: [`super::PlanarRod`] or [`super::SpatialRod`].

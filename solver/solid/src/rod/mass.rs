@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
-use super::rod_properties::RodProperties;
+use super::properties::RodProperties;
 
 /// Parts of an element with a Gauss rule each: widths of rounded ends grow like a root.
 const PARTS: u32 = 16;

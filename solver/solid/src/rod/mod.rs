@@ -7,35 +7,34 @@
 //! taken by automatic differentiation.
 
 mod along;
+mod center;
 mod elastic;
 mod end;
-mod ends;
 mod error;
-mod frame;
 mod hermite;
 mod kinematics;
+mod loads;
 mod mass;
-mod plane;
-mod resistive;
-mod rod_properties;
-mod space;
-mod spatial_ends;
-mod spatial_surface;
-mod surface;
+mod planar;
+mod properties;
+mod section;
+mod spatial;
+mod supports;
 #[cfg(test)]
 mod tests;
-mod weight;
 
 pub use along::{Along, Field, Varying};
 pub use elastic::{Rod, RodPower};
-pub use end::End;
-pub use ends::{EndLoad, EndPose, Support};
+pub use end::{End, Support};
 pub use error::RodError;
-pub use plane::PlanarRod;
-pub use resistive::Resistance;
-pub use rod_properties::{Flexure, PlanarProperties, RodProperties, SpatialProperties};
-pub use space::SpatialRod;
-pub use spatial_ends::{SpatialEndLoad, SpatialEndPose};
-pub use spatial_surface::{SpatialSectionPoint, SpatialSurfaceRows};
-pub use surface::{RoundedStrip, SectionPoint, SurfaceRows};
-pub use weight::LineForce;
+pub use loads::{LineForce, Resistance};
+pub use planar::{
+    EndLoad, EndPose, PlanarRod, PlanarRodBody, RoundedStrip, SectionPoint, SurfaceRows,
+};
+pub use properties::{Flexure, PlanarProperties, RodProperties, SpatialProperties};
+pub use section::Section;
+pub use spatial::{
+    SpatialEndLoad, SpatialEndPose, SpatialRod, SpatialRodBody, SpatialSectionPoint,
+    SpatialSurfaceRows,
+};
+pub use supports::{HeldEnd, Supports};

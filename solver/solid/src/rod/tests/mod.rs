@@ -1,6 +1,7 @@
 //! Rods against exact solutions, and their derivatives against differences.
 
 mod active;
+mod body;
 mod common;
 mod derivatives;
 mod motion;

@@ -1,4 +1,4 @@
-//! Thrust of filaments with resistive loads against linear theory, zeta y_t = -B y_ssss [@wiggins1998].
+//! Thrust of filaments with resistive loads against linear theory, zeta y_t = -B y_ssss (@wiggins1998).
 
 use std::f64::consts::PI;
 

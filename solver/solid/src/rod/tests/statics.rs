@@ -1,5 +1,5 @@
 //! Equilibria against the elastica: B theta'' = cos(theta) (P + q (1 - s)), theta(0) = theta'(1) = 0, whose values
-//! here are those of a boundary value problem solved to 1e-11; those without weight are in [@mattiasson1981].
+//! here are those of a boundary value problem solved to 1e-11; those without weight are in (@mattiasson1981).
 
 use nalgebra::DVector;
 

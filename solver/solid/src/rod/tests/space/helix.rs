@@ -1,5 +1,5 @@
 //! Helical rods against Kirchhoff's theory: a uniform helix stays one under a force and a couple along its axis
-//! [@love1927].
+//! (@love1927).
 
 use nalgebra::{DVector, Rotation3, Vector3};
 

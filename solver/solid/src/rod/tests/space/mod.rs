@@ -1,6 +1,6 @@
 //! Rods in space.
 
-mod common;
+pub mod common;
 mod derivatives;
 mod helix;
 mod motion;

@@ -2,14 +2,14 @@
 
 use nalgebra::{DVector, Rotation3, Vector3};
 
-use super::along::Along;
-use super::elastic::{Parts, Rod};
-use super::error::RodError;
 use super::frame::{Frame, dot};
-use super::hermite::{GAUSS, GAUSS_INTEGRALS, GAUSS_WEIGHTS, Hermite};
-use super::kinematics::{Kinematics, Number, StrainKind, StrainPoint};
-use super::mass::mass;
-use super::rod_properties::SpatialProperties;
+use crate::rod::along::Along;
+use crate::rod::elastic::{Parts, Rod};
+use crate::rod::error::RodError;
+use crate::rod::hermite::{GAUSS, GAUSS_INTEGRALS, GAUSS_WEIGHTS, Hermite};
+use crate::rod::kinematics::{Kinematics, Number, StrainKind, StrainPoint};
+use crate::rod::mass::mass;
+use crate::rod::properties::SpatialProperties;
 
 /// Coordinates of an element.
 pub(super) const COORDINATES: usize = 18;

@@ -2,12 +2,12 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-use super::elastic::Rod;
-use super::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
-use super::kinematics::Kinematics;
+use crate::rod::elastic::Rod;
+use crate::rod::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
+use crate::rod::kinematics::Kinematics;
 use crate::structure::{Load, Tangents};
 
-/// Resistive force theory: the drag per length of a thin rod depends on the velocity there alone [@gray1955].
+/// Resistive force theory: the drag per length of a thin rod depends on the velocity there alone (@gray1955).
 #[derive(Debug, Clone)]
 pub struct Resistance {
     /// Force per length and velocity along the rod (N s/m²).

@@ -4,9 +4,9 @@ use nalgebra::{DVector, SMatrix, Vector3};
 use num_dual::Dual64;
 
 use super::frame::Frame;
-use super::hermite::Hermite;
-use super::kinematics::Number;
-use super::space::{COORDINATES, SpatialRod, across, vector};
+use super::spatial_rod::{COORDINATES, SpatialRod, across, vector};
+use crate::rod::hermite::Hermite;
+use crate::rod::kinematics::Number;
 
 /// A point of a section in space: sections stay plane and normal to the centreline.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,19 +2,19 @@
 
 use nalgebra::{DVector, Vector2};
 
-use super::along::Along;
-use super::elastic::{Parts, Rod};
-use super::error::RodError;
-use super::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
-use super::kinematics::{Kinematics, Number, StrainKind, StrainPoint};
-use super::mass::mass;
-use super::rod_properties::PlanarProperties;
+use crate::rod::along::Along;
+use crate::rod::elastic::{Parts, Rod};
+use crate::rod::error::RodError;
+use crate::rod::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
+use crate::rod::kinematics::{Kinematics, Number, StrainKind, StrainPoint};
+use crate::rod::mass::mass;
+use crate::rod::properties::PlanarProperties;
 
 /// Coordinates of an element.
 pub(super) const COORDINATES: usize = 8;
 
 /// Strains of an element: curvature at Gauss points; stretch at both ends and in the middle, where a cubic can
-/// keep its length without becoming stiff in bending [@meier2015].
+/// keep its length without becoming stiff in bending (@meier2015).
 pub(super) const STRAINS: usize = 7;
 
 /// Points of the Gauss rule with two points, from 0 to 1.

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::elastic::Rod;
-use super::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
-use super::kinematics::Kinematics;
+use crate::rod::elastic::Rod;
+use crate::rod::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
+use crate::rod::kinematics::Kinematics;
 use crate::structure::{Load, Structure, Tangents};
 
 /// A dead load: forces that do not follow the rod.

@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{DVector, SMatrix, Vector2};
 
-use super::hermite::Hermite;
-use super::plane::{COORDINATES, PlanarRod};
+use super::planar_rod::{COORDINATES, PlanarRod};
+use crate::rod::hermite::Hermite;
 
 /// A point of a section: sections stay plane and normal to the centreline.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,9 +2,8 @@
 
 use nalgebra::{DVector, Rotation3, SMatrix, Vector3};
 
-use super::end::End;
-use super::ends::Support;
-use super::space::SpatialRod;
+use super::spatial_rod::SpatialRod;
+use crate::rod::end::{End, Support};
 use crate::structure::Held;
 
 /// Coordinates of a knot.
@@ -86,11 +85,7 @@ impl SpatialRod {
         let values = [pose.place, tangent, across];
         let turning = |direction: &Vector3<f64>| pose.angular_velocity.cross(direction);
         let rates = [pose.velocity, turning(&tangent), turning(&across)];
-        let n_held = match support {
-            Support::Free => 0,
-            Support::Hinged => 3,
-            Support::Clamped => KNOT,
-        };
+        let n_held = support.n_held(3);
         let held = |i: usize| Held {
             coordinate: first + i,
             value: values[i / 3][i % 3],

@@ -2,20 +2,9 @@
 
 use nalgebra::{DVector, SMatrix, Vector2};
 
-use super::end::End;
-use super::plane::PlanarRod;
+use super::planar_rod::PlanarRod;
+use crate::rod::end::{End, Support};
 use crate::structure::Held;
-
-/// How an end is held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Support {
-    /// Not at all.
-    Free,
-    /// Its place is given.
-    Hinged,
-    /// Its place and its direction are given.
-    Clamped,
-}
 
 /// Place and direction of an end and how they change: of a support that moves as a function of time, or of a point
 /// of a rigid body.
@@ -77,24 +66,12 @@ impl EndPose {
     }
 }
 
-impl Support {
-    /// Number of the coordinates of an end that are given: the first ones.
-    #[must_use]
-    pub const fn n_held(self) -> usize {
-        match self {
-            Self::Free => 0,
-            Self::Hinged => 2,
-            Self::Clamped => 4,
-        }
-    }
-}
-
 impl PlanarRod {
     /// The coordinates that a support gives.
     #[must_use]
     pub fn held(&self, end: End, support: Support, pose: &EndPose) -> Vec<Held> {
         let first = self.first_coordinate(end);
-        let given = pose.coordinates().into_iter().enumerate().take(support.n_held());
+        let given = pose.coordinates().into_iter().enumerate().take(support.n_held(2));
         let held =
             |(i, [value, rate]): (usize, [f64; 2])| Held { coordinate: first + i, value, rate };
         given.map(held).collect()

@@ -1,6 +1,6 @@
 //! `Frame`: the frame of a section in space, and vectors of numbers with derivatives.
 
-use super::kinematics::Number;
+use crate::rod::kinematics::Number;
 
 /// Three vectors of length one: along the centreline and across.
 #[derive(Debug, Clone, Copy)]
