@@ -115,7 +115,7 @@ fn a_stiff_rod_moves_as_a_rigid_body() {
         let off = (found - exact).norm() / exact.norm();
         let ways = [&rod, &body].map(|run| run.state.poses[0].center);
         let apart = (ways[0] - ways[1]).norm() / (ways[1] - Vector3::new(0.1, 0.05, 0.0)).norm();
-        figure!(off, model);
+        figure!(off, "velocity");
         // It gives way by a millionth of its length
         assert!(off < 2e-4 && apart < 5e-4, "{model}: {off} {apart}");
     }
