@@ -5,6 +5,7 @@ pub(crate) mod case;
 pub(crate) mod contact;
 pub(crate) mod domain;
 pub(crate) mod extent;
+pub(crate) mod field;
 pub(crate) mod fluid;
 pub(crate) mod mean_flow;
 pub(crate) mod mesh;

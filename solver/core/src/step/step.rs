@@ -41,7 +41,9 @@ impl<const D: usize> TimeStepper<'_, D> {
             let mut configuration = step.place(work, iterate.poses)?;
             let flow = step.solve(work, &mut configuration, contact.as_mut(), iterate.guess)?;
             let reached = step.integrate(&flow.solution.twists);
-            if self.path.has_converged(&configuration.poses, &reached, &flow.contact) {
+            if self.path.has_converged(&configuration.poses, &reached, &flow.contact)
+                && step.magnets_have_turned(&configuration.poses, &reached)
+            {
                 return step.finish(work, &configuration, flow, reached);
             }
             iterate = step.iterate_again(configuration, flow, reached);
