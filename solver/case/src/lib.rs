@@ -46,6 +46,7 @@ pub use spec::comparison::uncertainty::Uncertainty;
 pub use spec::contact::{ContactLosses, ContactSpec};
 pub use spec::domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use spec::extent::Extent;
+pub use spec::field::{DipoleField, FieldSpec, LinearField, MagneticSpec, RotatingField};
 pub use spec::fluid::{FlowModel, Fluid};
 pub use spec::mean_flow::MeanFlowSpec;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};

@@ -6,6 +6,7 @@ pub(crate) mod comparison;
 pub(crate) mod contact;
 pub(crate) mod domain;
 pub(crate) mod extent;
+pub(crate) mod field;
 pub(crate) mod fluid;
 pub(crate) mod mean_flow;
 pub(crate) mod mesh;

@@ -3,13 +3,13 @@
 //! With V the rigid velocities of a body, M its mass matrix in the world and h the older part of the
 //! difference of its momentum divided by M: M (rate V + h) + resistance V = fluid + external.
 
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::flexible_equation::FlexibleEquation;
 use super::kinematics::Levers;
 use super::problem::{FreeArm, Joint, JointLaw, Problem, RigidBody, Turn};
 use super::shapes::BodyShapes;
-use crate::body::{Inertia, Modes, Pose, RigidVector, Twist, Wrench, carried_velocity};
+use crate::body::{Inertia, Mode, Modes, Pose, RigidVector, Twist, Wrench, carried_velocity};
 
 /// The equations of all bodies.
 #[derive(Debug, Clone, Default)]
@@ -35,6 +35,27 @@ pub struct RigidBodyEquation {
     pub resistance: RigidVector,
     /// Load from outside (N, N m).
     pub external: RigidVector,
+    /// Torque per angular velocity by which a magnetic field turns its body in a step (N m s/rad).
+    pub magnetic: Option<Matrix3<f64>>,
+}
+
+impl RigidBodyEquation {
+    /// Adds the torque of a field by a stiffness (N m/rad) where the velocity that is expected has led to a turn, and
+    /// a velocity adds `coefficient` (s) times itself.
+    fn add_turning(&mut self, stiffness: &Matrix3<f64>, led: &RigidVector, coefficient: f64) {
+        let turned = stiffness * led.fixed_rows::<3>(3);
+        for axis in 0..3 {
+            self.external[3 + axis] += turned[axis];
+        }
+        self.magnetic = Some(stiffness * coefficient);
+    }
+
+    /// Torque on the magnet against an angular velocity about an axis, by one about another (N m s/rad).
+    pub(super) fn magnetic_resistance(&self, one: Mode, other: Mode) -> Option<f64> {
+        let is_turn = one.is_rotation() && other.is_rotation();
+        let of_axes = |resistance: Matrix3<f64>| resistance[(one.axis(), other.axis())];
+        self.magnetic.filter(|_| is_turn).map(of_axes)
+    }
 }
 
 /// Load - resistance rate along a coordinate of a joint. The rate is on_child . V_child + on_parent .
@@ -188,6 +209,10 @@ impl RigidBodyEquations {
         }
         for (body, (equation, rigid)) in self.bodies.iter_mut().zip(&problem.bodies).enumerate() {
             equation.external = rigid.external(time, &expected[body]);
+            if let Some(magnet) = rigid.magnet.as_ref().filter(|_| coefficient != 0.0) {
+                let stiffness = magnet.turning_stiffness(time, &expected[body]);
+                equation.add_turning(&stiffness, &reached.led_by_velocity(body), coefficient);
+            }
             let Some(spring) = &rigid.spring else { continue };
             equation.resistance = spring.damping + spring.stiffness * coefficient;
             let way = reached.way_from(body, &spring.rest);
@@ -263,6 +288,11 @@ impl RigidBodyEquations {
                 raw[row(body, position)] += momentum_rate[mode]
                     + equation.resistance[mode] * velocity[mode]
                     - equation.external[mode];
+                for other in modes.iter() {
+                    if let Some(resistance) = equation.magnetic_resistance(mode, other) {
+                        raw[row(body, position)] += resistance * velocity[other];
+                    }
+                }
             }
         }
         for joint in &self.joints {

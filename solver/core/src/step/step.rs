@@ -43,7 +43,7 @@ impl<const D: usize> TimeStepper<'_, D> {
             let mut configuration = step.place(work, iterate.placement)?;
             let flow = step.solve(work, &mut configuration, contact.as_mut(), iterate.guess)?;
             let reached = step.integrate(&flow.solution)?;
-            if self.path.has_converged(&configuration.placement, &reached, &flow.contact) {
+            if step.has_converged(&configuration.placement, &reached, &flow.contact) {
                 return step.finish(work, &configuration, flow, reached);
             }
             iterate = step.iterate_again(configuration, flow, reached, &mut passes)?;

@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::in_time::TimeValue;
 use super::joint::Joint;
+use super::magnet::Magnet;
 use crate::body::{Inertia, Mode, Pose, RigidVector, Wrench};
 use crate::gait::{DeformedOutline, Gait, ShapeMotion};
 use crate::structure::Flexible;
@@ -70,6 +71,8 @@ pub struct RigidBody {
     pub load_in_body: bool,
     /// Spring and damper.
     pub spring: Option<Spring>,
+    /// Magnetic moment in a field.
+    pub magnet: Option<Magnet>,
     /// Slip of the surface.
     pub gait: Option<Box<dyn Gait>>,
     /// How its outline deforms: in time, or with coordinates of its own, whose rates are further unknowns.
@@ -95,6 +98,7 @@ impl RigidBody {
             load_factor: None,
             load_in_body: false,
             spring: None,
+            magnet: None,
             gait: None,
             shape: None,
             joint: None,
@@ -139,7 +143,11 @@ impl RigidBody {
         } else {
             self.load
         };
-        self.weight.to_vector() + load.to_vector() * factor
+        let given = self.weight.to_vector() + load.to_vector() * factor;
+        match &self.magnet {
+            Some(magnet) => given + magnet.load(time, pose).to_vector(),
+            None => given,
+        }
     }
 
     /// Mass and inertia tensor with an outline, those at rest for a body that does not deform.

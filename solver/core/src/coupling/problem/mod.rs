@@ -4,6 +4,7 @@ mod body;
 mod group;
 mod in_time;
 mod joint;
+mod magnet;
 mod mean_flow;
 mod side;
 
@@ -17,6 +18,7 @@ pub use group::Group;
 pub use in_time::{MovingValue, RateDiscontinuities, TimeValue};
 pub(in crate::coupling) use joint::FreeArm;
 pub use joint::{Arm, Joint, JointLaw, Length, Pivot, Turn, angle_about};
+pub use magnet::{FieldPart, LocalField, Magnet, MagneticField, UniformField};
 pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
 pub use side::{Side, VelocityProfile};
 

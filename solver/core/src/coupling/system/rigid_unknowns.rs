@@ -86,6 +86,9 @@ impl<const D: usize> FluidSystem<D> {
                     if i == j {
                         factor += equation.resistance[one];
                     }
+                    if let Some(resistance) = equation.magnetic_resistance(one, other) {
+                        factor += resistance;
+                    }
                     self.linear.add_product(row(body, i), row(body, j), factor);
                 }
             }

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod joints;
+mod magnets;
 mod motion_settings;
 mod shape_motion;
 mod sides;
@@ -12,6 +13,7 @@ use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 
 use self::bodies::rigid_body;
 use self::joints::add_joint;
+use self::magnets::add_magnets;
 pub use self::motion_settings::motion_settings;
 pub use self::shape_motion::{BodyRecoil, recoils, shape_motion};
 use self::sides::side;
@@ -90,6 +92,7 @@ pub fn build_problem<const D: usize>(
     for joint in &model.joints {
         add_joint(model, joint, &mut bodies)?;
     }
+    add_magnets(model, &mut bodies);
     let has_inertia = case.fluid.model != FlowModel::Stokes;
     let mut problem = Problem {
         metric,

@@ -203,7 +203,10 @@ impl<const D: usize> Simulation<D> {
                 [0, 3].map(|first| external.fixed_rows::<3>(first).into_owned().norm());
             let motor =
                 body.joint.as_ref().map_or(0.0, |joint| motor_load(joint, radius, state.time));
-            let load = force + torque / radius + motor;
+            // However it is turned: the torque of a field that it is turned along may be any later
+            let magnet = body.magnet.as_ref();
+            let magnetic = magnet.map_or(0.0, |magnet| magnet.largest_torque(state.time, pose));
+            let load = force + (torque + magnetic) / radius + motor;
             LoadStep { load, acceleration: load / mass }
         };
         problem.bodies.iter().zip(&state.poses).map(step).collect()
