@@ -55,6 +55,7 @@ pub use spec::time::{
 };
 pub use spec::uncertainty::Uncertainty;
 pub use spec::units::{UnitLabels, Units};
+pub use spec::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use text::diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use text::nearest::{nearest, several_nearest};

@@ -118,9 +118,9 @@ fn body_speed(case: &Case, body: &Body) -> f64 {
 /// Force per velocity of a body in slow flow, by its reach (N s/m; N s/m2 planar).
 fn resistance(case: &Case, body: &Body) -> f64 {
     match case.geometry {
-        Geometry::Planar => 4.0 * PI * case.fluid.viscosity,
+        Geometry::Planar => 4.0 * PI * case.reference_viscosity(),
         Geometry::Axisymmetric | Geometry::Spatial => {
-            6.0 * PI * case.fluid.viscosity * body.shape.reach()
+            6.0 * PI * case.reference_viscosity() * body.shape.reach()
         }
     }
 }

@@ -18,3 +18,4 @@ pub(crate) mod time;
 mod time_function;
 pub(crate) mod uncertainty;
 pub(crate) mod units;
+pub(crate) mod viscosity;
