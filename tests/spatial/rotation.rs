@@ -6,6 +6,7 @@ use std::sync::Arc;
 use alewife_core::body::{Pose, Twist, Wrench};
 use alewife_core::case::Convection;
 use alewife_core::coupling::{FieldPart, Magnet, MagneticField, Problem, Spring};
+use alewife_core::flow::Viscosity;
 use alewife_core::run::simulate;
 use alewife_core::step::MeshPath;
 use alewife_core::time::Bdf;
@@ -88,7 +89,7 @@ impl Top<'_> {
     fn steps(&self, problem: &mut Problem<3>, start: &Turning, step: f64, n: usize) -> Vec<Turn> {
         let mesh = two_tetrahedra();
         problem.density = THIN;
-        problem.viscosity = THIN;
+        problem.viscosity = Viscosity::Newtonian(THIN);
         let center = problem.bodies[0].pose.center;
         problem.bodies[0].inertia.tensor = self.inertia;
         problem.bodies[0].pose = Pose::spatial(center, start.turn);

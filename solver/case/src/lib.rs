@@ -56,6 +56,7 @@ pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };
 pub use spec::units::{UnitLabels, Units};
+pub use spec::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use text::diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use text::nearest::{nearest, several_nearest};

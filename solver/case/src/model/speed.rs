@@ -43,9 +43,9 @@ impl Model {
     pub(crate) fn magnetic_rate(&self, field: &MagneticSpec, body: &Body) -> f64 {
         let (case, width) = (&self.case, body.shape.half_width());
         let drag = match case.geometry {
-            Geometry::Planar => 4.0 * PI * case.fluid.viscosity * width.powi(2),
+            Geometry::Planar => 4.0 * PI * case.reference_viscosity() * width.powi(2),
             Geometry::Axisymmetric | Geometry::Spatial => {
-                8.0 * PI * case.fluid.viscosity * width.powi(3)
+                8.0 * PI * case.reference_viscosity() * width.powi(3)
             }
         };
         if body.turns() {
@@ -174,9 +174,9 @@ fn body_speed(case: &Case, body: &Body) -> f64 {
 /// Force per velocity of a body in slow flow, by its reach (N s/m; N s/m2 planar).
 fn resistance(case: &Case, body: &Body) -> f64 {
     match case.geometry {
-        Geometry::Planar => 4.0 * PI * case.fluid.viscosity,
+        Geometry::Planar => 4.0 * PI * case.reference_viscosity(),
         Geometry::Axisymmetric | Geometry::Spatial => {
-            6.0 * PI * case.fluid.viscosity * body.shape.reach()
+            6.0 * PI * case.reference_viscosity() * body.shape.reach()
         }
     }
 }

@@ -95,6 +95,14 @@ impl Case {
     pub fn gist(&self) -> String {
         first_sentence(&self.description)
     }
+
+    /// The viscosity (Pa s) that numbers of the case are made of: that at rest, or of powers of the rate of shear that at
+    /// the rate of `[scales]`, velocity over length, or at 1/s where there are none.
+    #[must_use]
+    pub fn reference_viscosity(&self) -> f64 {
+        let rate = self.scales.map_or(1.0, |scales| scales.velocity / scales.length);
+        self.fluid.viscosity.reference(rate.abs())
+    }
 }
 
 fn first_sentence(paragraph: &str) -> String {

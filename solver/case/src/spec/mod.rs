@@ -17,3 +17,4 @@ pub(crate) mod output;
 pub(crate) mod time;
 mod time_function;
 pub(crate) mod units;
+pub(crate) mod viscosity;

@@ -16,7 +16,7 @@ use super::surface::RestPlaces;
 use super::uniform_flows::{UniformFlows, integral, node_integrals};
 
 use crate::algebra::{AffineConstraints, ConstraintBuilder, LinearError};
-use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
+use crate::flow::{Assembly, Convection, Fields, FlowTerms, ViscosityTerm, assemble, residual};
 use crate::space::{DofLayout, Metric, straight_cell};
 use crate::timing::Timing;
 
@@ -47,7 +47,7 @@ const NEARLY_INVISCID: f64 = 1e-6;
 /// Neither stress nor convection, and as much mass as asked for.
 fn terms<'a, const D: usize>(density: f64) -> FlowTerms<'a, D> {
     FlowTerms {
-        viscosity: 0.0,
+        viscosity: ViscosityTerm::Constant(0.0),
         density,
         rate: 1.0,
         history: &[],
@@ -92,7 +92,8 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let viscosity = NEARLY_INVISCID * edge * edge;
         let coefficients = Coefficients { viscosity, inertia: 1.0, has_convection: false };
         let tables = self.assembly.tables();
-        let discretised = Discretised { mesh, layout: &self.layout, constraints, tables };
+        let discretised =
+            Discretised { mesh, layout: &self.layout, constraints, tables, local: None };
         self.linear.forget_weights();
         let weights = &|| discretised.weights(coefficients);
         self.linear.prepare(coefficients, weights, &mut Timing::default());

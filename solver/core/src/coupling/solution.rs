@@ -55,6 +55,28 @@ impl<const D: usize> Solution<D> {
         }
     }
 
+    /// The point at a part (1) of the way to another one.
+    #[must_use]
+    pub fn towards(&self, other: &Self, part: f64) -> Self {
+        let between = |from: &Point<D>, to: &Point<D>| from + (to - from) * part;
+        let velocities = self.velocity.iter().zip(&other.velocity);
+        let number = |(from, to): (&f64, &f64)| from + (to - from) * part;
+        let pressures = self.pressure.iter().zip(&other.pressure);
+        let rates = self.rates.iter().zip(&other.rates);
+        let twists = self.twists.iter().zip(&other.twists);
+        let twist = |(from, to): (&Twist, &Twist)| {
+            let from = from.to_vector();
+            Twist::from_vector(&(from + (to.to_vector() - from) * part))
+        };
+        Self {
+            velocity: velocities.map(|(from, to)| between(from, to)).collect(),
+            pressure: pressures.map(number).collect(),
+            twists: twists.map(twist).collect(),
+            rates: rates.map(number).collect(),
+            pressure_gradient: between(&self.pressure_gradient, &other.pressure_gradient),
+        }
+    }
+
     /// As a vector of raw unknowns, in the order of [`DofLayout`].
     #[must_use]
     pub fn to_raw(&self, modes: Modes) -> Vec<f64> {

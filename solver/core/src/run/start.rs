@@ -68,7 +68,8 @@ impl<const D: usize> Simulation<D> {
         } else {
             self.steady_equations()
         };
-        let settings = Steady { tolerance: 1e-10, max_iterations: 5 };
+        let max_iterations = if self.problem.viscosity.is_newtonian() { 5 } else { SHEAR };
+        let settings = Steady { tolerance: 1e-10, max_iterations };
         let flow = self.solve_at_start(&settings, &equations, false)?;
         self.state.begin(InitialLevels::steady(flow.solution));
         let loads = self.loads(&flow.residual);
@@ -97,6 +98,9 @@ pub(super) fn step_scheme<const D: usize>(case: &Case, problem: &Problem<D>) -> 
     let unknown_frame = problem.frame.is_some() && problem.has_convection && !is_linear;
     StepScheme { method, convection, unknown_frame }
 }
+
+/// Most iterations for the first flow of a fluid whose viscosity depends on the rate of shear.
+const SHEAR: usize = 30;
 
 const GIGABYTE: f64 = 1e9;
 

@@ -49,12 +49,18 @@ pub(super) struct StepEquations<'a, const D: usize> {
 impl<const D: usize> StepEquations<'_, D> {
     /// Whether one linear system gives flow and bodies.
     pub fn is_linear(&self) -> bool {
-        self.has_known_convection() && self.problem.n_coordinates() == 0
+        !self.convects_by_newton() && !self.shears_by_newton() && self.problem.n_coordinates() == 0
     }
 
-    /// Whether what convects does not depend on the flow.
-    fn has_known_convection(&self) -> bool {
-        !(self.convection == ConvectionChoice::Newton && self.problem.has_convection)
+    fn convects_by_newton(&self) -> bool {
+        self.convection == ConvectionChoice::Newton && self.problem.has_convection
+    }
+
+    /// Whether a viscosity that depends on the rate of shear is that of the flow itself: always of a flow without a past.
+    pub fn shears_by_newton(&self) -> bool {
+        let has_past = !self.history.extrapolated.velocity.is_empty();
+        !self.problem.viscosity.is_newtonian()
+            && (self.convection == ConvectionChoice::Newton || !has_past)
     }
 }
 
@@ -63,7 +69,7 @@ impl<const D: usize> FlowEquations<D> for StepEquations<'_, D> {
         let mesh_velocity = &self.configuration.mesh_velocity;
         let mut convecting: Vec<Point<D>> = if !self.problem.has_convection {
             vec![Point::<D>::zeros(); mesh_velocity.len()]
-        } else if self.has_known_convection() {
+        } else if !self.convects_by_newton() {
             let frame = self.history.frame_velocity;
             self.history.extrapolated.velocity.iter().map(|u| u - frame).collect()
         } else {
@@ -74,16 +80,26 @@ impl<const D: usize> FlowEquations<D> for StepEquations<'_, D> {
         convecting
     }
 
-    fn terms<'a>(&'a self, convecting_velocity: &'a [Point<D>]) -> FlowTerms<'a, D> {
+    fn terms<'a>(
+        &'a self,
+        convecting_velocity: &'a [Point<D>],
+        solution: &'a Solution<D>,
+    ) -> FlowTerms<'a, D> {
         let convection = if convecting_velocity.is_empty() {
             Convection::None
-        } else if self.has_known_convection() {
+        } else if !self.convects_by_newton() {
             Convection::Oseen
         } else {
             self.problem.newton_convection()
         };
+        // Linearised about the extrapolated strain, or about that of the flow itself: a step of Newton's method from there
+        let sheared = if self.shears_by_newton() {
+            &solution.velocity
+        } else {
+            &self.history.extrapolated.velocity
+        };
         FlowTerms {
-            viscosity: self.problem.viscosity,
+            viscosity: self.problem.viscosity_at(sheared),
             density: self.problem.density,
             rate: self.history.step.bdf.next,
             history: &self.history.derivative,

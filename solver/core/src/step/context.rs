@@ -98,7 +98,7 @@ impl<'a, const D: usize> StepContext<'a, D> {
                 rate: history.step.bdf.next,
                 inertia: equations.bodies.iter().map(|body| body.inertia).collect(),
                 resistance: equations.bodies.iter().map(|body| body.resistance).collect(),
-                viscosity: stepper.problem.viscosity,
+                viscosity: stepper.problem.viscosity.zero_shear(),
             },
         })
     }

@@ -64,7 +64,10 @@ impl<const D: usize> StepContext<'_, D> {
         let Workspace { system, mesh, timing } = work;
         let at = configuration.system(self.stepper.problem, mesh);
         let start = system.constrained(at.constraints, &guess.solution);
-        let criterion = Criterion::of_step(equations.is_linear(), guess.scale, has_contact);
+        let criterion = Criterion {
+            is_damped: equations.shears_by_newton(),
+            ..Criterion::of_step(equations.is_linear(), guess.scale, has_contact)
+        };
         newton(system, timing, &at, &equations, &criterion, start)
             .map_err(|failure| failure.in_step(&self.history.step).into())
     }

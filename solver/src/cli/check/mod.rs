@@ -210,7 +210,7 @@ fn cell_numbers<const D: usize>(model: &Model, quality: &Quality<D>) -> Vec<Stri
     let speed = model.expected_speed().filter(|_| case.fluid.model == FlowModel::NavierStokes);
     let Some(speed) = speed else { return Vec::new() };
     let at = format!("at the speed {}", significant(speed));
-    let reynolds = case.fluid.density * speed * quality.longest_edge / case.fluid.viscosity;
+    let reynolds = case.fluid.density * speed * quality.longest_edge / case.reference_viscosity();
     let mut lines =
         vec![format!("cell Reynolds    up to {}, {at} in the longest cell", significant(reynolds))];
     if let TimeSettings::Unsteady(time) = &case.time {

@@ -23,7 +23,7 @@ pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
 pub use side::{Side, VelocityProfile};
 
 use crate::body::{Mode, Modes, Pose, Twist, on_mesh};
-use crate::flow::{BodyForce, Convection};
+use crate::flow::{BodyForce, Convection, LocalViscosity, Viscosity, ViscosityTerm};
 use crate::space::Metric;
 use crate::structure::Held;
 
@@ -33,8 +33,8 @@ pub struct Problem<const D: usize> {
     pub metric: Metric,
     /// Density (kg/m3).
     pub density: f64,
-    /// Dynamic viscosity (Pa s).
-    pub viscosity: f64,
+    /// Dynamic viscosity (Pa s), or the law it follows.
+    pub viscosity: Viscosity,
     /// Whether fluid and bodies have inertia (else quasi-steady Stokes flow).
     pub has_inertia: bool,
     /// Whether the fluid is convected.
@@ -121,6 +121,15 @@ impl<const D: usize> Problem<D> {
             let own = DVector::from_column_slice(&coordinates[own]);
             let way = flexible.way_of_center(&own);
             pose.center = body.pose.center + body.pose.to_world(&way);
+        }
+    }
+
+    /// The viscosity of a system in which a law is linearised about the strain of a velocity at the nodes (m/s).
+    #[must_use]
+    pub fn viscosity_at<'a>(&self, velocity: &'a [Point<D>]) -> ViscosityTerm<'a, D> {
+        match self.viscosity {
+            Viscosity::Newtonian(value) => ViscosityTerm::Constant(value),
+            law => ViscosityTerm::Local(LocalViscosity { law, velocity }),
         }
     }
 

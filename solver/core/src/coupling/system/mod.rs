@@ -36,7 +36,7 @@ use super::solution::Solution;
 use super::surface::RestPlaces;
 use crate::algebra::{Accuracy, AffineConstraints, SolverMemory, SparseMatrix, Unknowns};
 use crate::body::{Modes, Pose};
-use crate::flow::{Assembly, Convection, FlowTerms, assemble};
+use crate::flow::{Assembly, Convection, FlowTerms, ViscosityTerm, assemble};
 use crate::space::{DofLayout, FacetRule, Tables};
 use crate::timing::{Stage, Timing};
 
@@ -222,6 +222,7 @@ impl<const D: usize> FluidSystem<D> {
             mesh,
             boundaries: &self.boundaries,
             rule: &self.facet_rule,
+            metric: problem.metric,
             viscosity: problem.viscosity,
             fields: solution.fields(),
         }
@@ -308,8 +309,15 @@ impl<const D: usize> FluidSystem<D> {
         if let Some(nullspace) = &self.nullspace {
             nullspace.check_balance(at.bodies, &at.mean_flow)?;
         }
+        let local = match &terms.viscosity {
+            ViscosityTerm::Local(local) => Some(local),
+            ViscosityTerm::Constant(_) => None,
+        };
+        if local.is_some() {
+            self.linear.forget_weights();
+        }
         let coefficients = Coefficients {
-            viscosity: terms.viscosity,
+            viscosity: terms.viscosity.constant().unwrap_or_default(),
             inertia: terms.density * terms.rate,
             has_convection: terms.convection != Convection::None,
         };
@@ -318,6 +326,7 @@ impl<const D: usize> FluidSystem<D> {
             layout: &self.layout,
             constraints: at.constraints,
             tables: self.assembly.tables(),
+            local,
         };
         self.linear.prepare(coefficients, &|| discretised.weights(coefficients), timing);
         self.linear.recall_with_weights()?;

@@ -91,7 +91,8 @@ impl<const D: usize> Simulation<D> {
             let relative = state.now.velocity.iter().map(|velocity| (velocity - own).norm());
             let speed = relative.fold(0.0, f64::max);
             let width = rigid.volume.mass.powf(1.0 / D as f64);
-            let reynolds = problem.density * speed * width / problem.viscosity;
+            let viscosity = problem.viscosity.at_rate(speed / width);
+            let reynolds = problem.density * speed * width / viscosity;
             let period = PERIOD * width / speed;
             if reynolds > SHEDDING { period / STEPS_OF_A_PERIOD } else { f64::INFINITY }
         };

@@ -236,7 +236,8 @@ impl<const D: usize> Simulation<D> {
             } else {
                 PI * radius * radius
             };
-            let slow = history.largest / (2.0 * PI * problem.viscosity * area / radius);
+            let viscosity = problem.viscosity.at_stress(history.largest / (2.0 * PI * area));
+            let slow = history.largest / (2.0 * PI * viscosity * area / radius);
             let fast = (2.0 * history.largest / (LOW_DRAG * density * area)).sqrt();
             let terminal = slow.min(fast);
             if is_steady { terminal } else { terminal.min(history.free_fall) }
@@ -244,7 +245,9 @@ impl<const D: usize> Simulation<D> {
         let loads = bodies.fold(0.0, f64::max);
         // Between walls as far apart as the domain is long
         let extent = self.extent();
-        let viscous = supply.largest_gradient * density * extent * extent / problem.viscosity;
+        let pull = supply.largest_gradient * density * extent;
+        let viscosity = problem.viscosity.at_stress(pull);
+        let viscous = supply.largest_gradient * density * extent * extent / viscosity;
         let gradient = if is_steady { viscous } else { viscous.min(supply.gradient_speed) };
         supply.given_speed + loads + gradient + supply.initial_speed
     }

@@ -17,8 +17,12 @@ pub(super) trait FlowEquations<const D: usize> {
     /// What convects at the nodes (m/s); none without convection.
     fn convecting_velocity(&self, solution: &Solution<D>) -> Vec<Point<D>>;
 
-    /// The terms with this convecting velocity.
-    fn terms<'a>(&'a self, convecting_velocity: &'a [Point<D>]) -> FlowTerms<'a, D>;
+    /// The terms with this convecting velocity, linearised at a solution.
+    fn terms<'a>(
+        &'a self,
+        convecting_velocity: &'a [Point<D>],
+        solution: &'a Solution<D>,
+    ) -> FlowTerms<'a, D>;
 
     /// Called with each residual, relative to the scale of the criterion.
     fn on_iteration(&self, _iteration: usize, _residual: f64) {}
@@ -37,7 +41,7 @@ pub(super) fn flow_residual<const D: usize>(
     solution: &Solution<D>,
 ) -> Vec<f64> {
     let convecting_velocity = equations.convecting_velocity(solution);
-    system.fluid_residual(at, &equations.terms(&convecting_velocity), solution)
+    system.fluid_residual(at, &equations.terms(&convecting_velocity, solution), solution)
 }
 
 /// When Newton's method ends.
@@ -57,6 +61,8 @@ pub(super) struct Criterion {
     pub accepts_start: bool,
     /// Whether one linear system gives the solution.
     pub is_linear: bool,
+    /// Whether steps that enlarge the residual are shortened.
+    pub is_damped: bool,
     /// Growth of the residual over the least one from which there is no return, if that is looked for.
     pub divergence: Option<f64>,
     /// How far iterations solve the linear systems.
@@ -112,6 +118,7 @@ impl Criterion {
             scale: None,
             accepts_start: false,
             is_linear,
+            is_damped: false,
             divergence: None,
             forcing: if is_linear { Forcing::OfStep { first, least } } else { Forcing::Inexact },
         }
@@ -194,7 +201,7 @@ pub(super) fn newton<const D: usize>(
     loop {
         let iterations = progress.iterations;
         let convecting_velocity = equations.convecting_velocity(&solution);
-        let terms = equations.terms(&convecting_velocity);
+        let terms = equations.terms(&convecting_velocity, &solution);
         // The second residual of a linear system is for the loads only
         let is_for_loads = criterion.is_linear && iterations == 1;
         let stage = if is_for_loads { Stage::Loads } else { Stage::Assembly };
@@ -231,9 +238,44 @@ pub(super) fn newton<const D: usize>(
                 return Err(NewtonFailure { reason: NewtonStop::Solve(error), end });
             }
         };
+        let next = if criterion.is_damped {
+            timing.measure(Stage::Assembly, || {
+                shortened(system, at, equations, [&solution, &next], largest(&reduced))
+            })
+        } else {
+            next
+        };
         progress.take(relative, &solution, &next);
         solution = next;
     }
+}
+
+/// Halvings of a step of Newton's method at most.
+const MOST_HALVINGS: u32 = 8;
+
+/// The end of a step of Newton's method, or a point on the way from its start at which the largest entry of the residual is
+/// not larger than a size: near the start all entries fall.
+fn shortened<const D: usize>(
+    system: &FluidSystem<D>,
+    at: &Configuration<'_, D>,
+    equations: &impl FlowEquations<D>,
+    [start, end]: [&Solution<D>; 2],
+    size: f64,
+) -> Solution<D> {
+    let mut trial = end.clone();
+    for halving in 1..=MOST_HALVINGS {
+        let residual = flow_residual(system, at, equations, &trial);
+        if largest(&system.reduced_residual(at, &trial, &residual)) <= size {
+            return trial;
+        }
+        trial = start.towards(end, 0.5f64.powi(halving as i32));
+    }
+    trial
+}
+
+/// The largest size of an entry.
+fn largest(residual: &[f64]) -> f64 {
+    residual.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
 /// How the residual has fallen so far.
