@@ -124,12 +124,17 @@ impl<const D: usize> Problem<D> {
         }
     }
 
-    /// The viscosity of a system in which a law is linearised about the strain of a velocity at the nodes (m/s).
+    /// The viscosity of a system in which a law is taken at the strain of a velocity at the nodes (m/s), with or without its
+    /// tangent.
     #[must_use]
-    pub fn viscosity_at<'a>(&self, velocity: &'a [Point<D>]) -> ViscosityTerm<'a, D> {
+    pub fn viscosity_at<'a>(
+        &self,
+        velocity: &'a [Point<D>],
+        has_tangent: bool,
+    ) -> ViscosityTerm<'a, D> {
         match self.viscosity {
             Viscosity::Newtonian(value) => ViscosityTerm::Constant(value),
-            law => ViscosityTerm::Local(LocalViscosity { law, velocity }),
+            law => ViscosityTerm::Local(LocalViscosity { law, velocity, has_tangent }),
         }
     }
 
