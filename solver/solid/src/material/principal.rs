@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::law::FirstOrder;
 use super::pairs::PAIRS;
 use super::{Curvature, Lame, Law, Tangent, Tensor};
 
@@ -22,6 +23,15 @@ pub struct Principal {
     pub body: Tensor,
 }
 
+/// An energy with its stress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stress {
+    /// Energy a volume at rest (J/m3).
+    pub energy: f64,
+    /// First Piola-Kirchhoff stress P (Pa).
+    pub stress: Tensor,
+}
+
 impl Principal {
     /// Singular values by one-sided Jacobi rotations; none where det F is not positive, that is where a cell
     /// is turned over.
@@ -39,8 +49,8 @@ impl Principal {
                 if dot * dot > ORTHOGONAL * a * b {
                     is_done = false;
                     let zeta = (b - a) / (2.0 * dot);
-                    let tangent = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
-                    let cosine = 1.0 / tangent.hypot(1.0);
+                    let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+                    let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
                     rotate(&mut columns, [p, q], cosine, cosine * tangent);
                     rotate(&mut body, [p, q], cosine, cosine * tangent);
                 }
@@ -70,17 +80,21 @@ impl Principal {
         lame.shear * shear + lame.volume * volume
     }
 
-    /// First Piola-Kirchhoff stress P (Pa).
+    /// Elastic energy a volume at rest and first Piola-Kirchhoff stress.
     #[must_use]
-    pub fn stress(&self, law: Law, lame: Lame) -> Tensor {
-        let [shear, volume] = law.stresses(self.stretches);
-        self.tensor(std::array::from_fn(|i| lame.shear * shear[i] + lame.volume * volume[i]))
+    pub fn stress(&self, law: Law, lame: Lame) -> Stress {
+        let FirstOrder { energies, stresses: [shear, volume] } = law.first_order(self.stretches);
+        Stress {
+            energy: lame.shear * energies[0] + lame.volume * energies[1],
+            stress: self
+                .tensor(std::array::from_fn(|i| lame.shear * shear[i] + lame.volume * volume[i])),
+        }
     }
 
     /// Derivatives of the stress by the shear modulus and by lambda.
     #[must_use]
     pub fn stress_by_moduli(&self, law: Law) -> [Tensor; 2] {
-        law.stresses(self.stretches).map(|values| self.tensor(values))
+        law.first_order(self.stretches).stresses.map(|values| self.tensor(values))
     }
 
     /// Derivatives of the stress by the deformation gradient (Pa).
