@@ -1,0 +1,4 @@
+//! The soft tier: gradients against differences, searches, and a twin of a recorded swimmer.
+
+mod gradients;
+mod swimmers;
