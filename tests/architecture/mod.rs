@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 27] = [
+const ROOMS: [(&str, &[&str]); 29] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -22,6 +22,8 @@ const ROOMS: [(&str, &[&str]); 27] = [
     ("multigrid", &["sparse"]),
     ("algebra", &["multifrontal", "multigrid", "sparse"]),
     ("structure", &[]),
+    ("dry", &["structure"]),
+    ("rod", &["dry", "structure"]),
     ("material", &[]),
     ("solid", &["material"]),
     ("soft", &["material", "solid"]),
@@ -57,7 +59,7 @@ const ROOMS: [(&str, &[&str]); 27] = [
 
 /// Foreign crates that may be named in some rooms or files only.
 const FOREIGN: [(&str, &[&str]); 9] = [
-    ("num_dual", &["solver/core/src/gait/", "solver/solid/src/material/"]),
+    ("num_dual", &["solver/core/src/gait/", "solver/solid/src/material/", "solver/solid/src/rod/"]),
     (
         "faer",
         &[

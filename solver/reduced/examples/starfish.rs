@@ -1,7 +1,7 @@
 //! Identifies a soft starfish from its recorded motion, as @du2021 did.
 //!
 //! ```sh
-//! cargo run --release -p alewife-reduced --example starfish -- RECORD.csv MESH.msh [substeps] [frames]
+//! cargo run --release -p alewife-reduced --example starfish -- RECORD.csv MESH.msh [substeps] [frames] [E] [nu]
 //! ```
 //!
 //! The records are `python/example/soft_starfish_3d/data_*.csv` of github.com/mit-gfx/diff_pd_public, the surface to
@@ -102,7 +102,7 @@ fn marks(
             .collect(),
     };
     markers.check(n_frames)?;
-    Ok((Plan { tolerance: 1e-8, ..Plan::new(frame, substeps, targets) }, markers))
+    Ok((Plan { tolerance: 1e-6, ..Plan::new(frame, substeps, targets) }, markers))
 }
 
 fn parameter(name: &str, start: f64, lower: f64, upper: f64) -> Bounded {
@@ -112,7 +112,7 @@ fn parameter(name: &str, start: f64, lower: f64, upper: f64) -> Bounded {
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [file, mesh, rest @ ..] = arguments.as_slice() else {
-        return Err("starfish RECORD.csv MESH.msh [substeps] [frames]".into());
+        return Err("starfish RECORD.csv MESH.msh [substeps] [frames] [E] [nu]".into());
     };
     let substeps = rest.first().map_or(Ok(5), |text| text.parse())?;
     let n_frames = rest.get(1).map_or(Ok(60), |text| text.parse())?;
@@ -120,7 +120,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mesh = alewife_mesh::read_undivided_msh::<3>(&std::fs::read(mesh)?, 1.0)?;
     let mesh = SolidMesh::of_mesh(&mesh, Order::Linear);
     let (plan, markers) = marks(&record, &mesh, substeps, n_frames)?;
-    let (young, poisson) = (5.67e4, 0.337);
+    let young = rest.get(2).map_or(Ok(5.67e4), |text| text.parse())?;
+    let poisson = rest.get(3).map_or(Ok(0.337), |text| text.parse())?;
     let body = starfish(mesh, young, poisson)?;
     println!(
         "{} nodes, {} unknowns, {} fibres, step {:.5} s",

@@ -5,13 +5,12 @@ use std::sync::Arc;
 use alewife_mesh::interrupt::{self, Heard};
 
 use super::case_mesh::{CaseMesh, Dimension};
-use super::cycle_report::CycleReport;
 use super::measure::Measure;
 use super::prepare::{Prepared, prepare};
+use super::reports::{CycleReport, LoadErrors, StepErrorReport};
 use super::resume::SavedState;
 use super::simulation::{CellCrossing, Simulation};
 use super::snapshot::{LastState, Observer, Snapshot};
-use super::step_report::{LoadErrors, StepErrorReport};
 use super::watch::{ForceAgreement, Pace, SoundState};
 use super::{RunError, Series};
 use crate::case::{Case, Model, Steady, TimeSettings, Unsteady};

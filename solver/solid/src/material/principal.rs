@@ -9,6 +9,9 @@ use super::{Curvature, Lame, Law, Tangent, Tensor};
 /// Two columns are orthogonal where the square of their cosine is below this.
 const ORTHOGONAL: f64 = 1e-30;
 
+/// Squared size of a coupling, of the matrix, below which the last rotations are left to the exact ones.
+const ROUGH: f64 = 1e-18;
+
 /// Sweeps at most: four are enough for any matrix of rank three.
 const N_SWEEPS: usize = 30;
 
@@ -40,7 +43,9 @@ impl Principal {
         if !(deformation.determinant() > 0.0 && deformation.norm_squared().is_finite()) {
             return None;
         }
-        let (mut columns, mut body) = (*deformation, Tensor::identity());
+        let mut body = directions(deformation.transpose() * deformation);
+        let mut columns = deformation * body;
+        // The square has lost digits of the smaller stretches, if any: they are found here
         for _ in 0..N_SWEEPS {
             let mut is_done = true;
             for [p, q] in PAIRS {
@@ -124,6 +129,39 @@ impl Principal {
         }
         tangent
     }
+}
+
+/// Eigenvectors of a symmetric matrix by Jacobi rotations, to about half of all digits.
+fn directions(mut square: Tensor) -> Tensor {
+    let mut vectors = Tensor::identity();
+    let rough = ROUGH * square.norm_squared();
+    for _ in 0..N_SWEEPS {
+        let mut is_done = true;
+        for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
+            let coupling = square[(p, q)];
+            if coupling * coupling <= rough {
+                continue;
+            }
+            is_done = false;
+            let third = 2 - pair;
+            let zeta = (square[(q, q)] - square[(p, p)]) / (2.0 * coupling);
+            let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+            let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
+            let sine = cosine * tangent;
+            square[(p, p)] -= tangent * coupling;
+            square[(q, q)] += tangent * coupling;
+            square[(p, q)] = 0.0;
+            let (lower, upper) = ((p.min(third), p.max(third)), (q.min(third), q.max(third)));
+            let (a, b) = (square[lower], square[upper]);
+            square[lower] = cosine * a - sine * b;
+            square[upper] = sine * a + cosine * b;
+            rotate(&mut vectors, [p, q], cosine, sine);
+        }
+        if is_done {
+            break;
+        }
+    }
+    vectors
 }
 
 /// Turns two columns by an angle.
