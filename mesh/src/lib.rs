@@ -34,7 +34,10 @@ pub use mesh::{
     NodeArray, NodeId, PeriodicPair, Point, Simplex, Topology, jacobian_coefficients,
     map_quadratic, shape_functions,
 };
-pub use msh::{Encoding, MshError, Place, read_msh, read_planar_msh, read_spatial_msh, write_msh};
+pub use msh::{
+    Encoding, MshError, Place, read_msh, read_planar_msh, read_spatial_msh, read_undivided_msh,
+    write_msh,
+};
 pub use number::whole;
 pub use planar::{
     Closest, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline, PlacedShape,

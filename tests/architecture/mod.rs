@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 28] = [
+const ROOMS: [(&str, &[&str]); 29] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -26,6 +26,7 @@ const ROOMS: [(&str, &[&str]); 28] = [
     ("rod", &["dry", "structure"]),
     ("material", &[]),
     ("solid", &["material"]),
+    ("soft", &["material", "solid"]),
     ("time", &["case"]),
     ("body", &["time"]),
     ("contact", &["body"]),
@@ -66,7 +67,7 @@ const ROOMS: [(&str, &[&str]); 28] = [
 ];
 
 /// Foreign crates that may be named in some rooms or files only.
-const FOREIGN: [(&str, &[&str]); 8] = [
+const FOREIGN: [(&str, &[&str]); 9] = [
     ("num_dual", &["solver/core/src/gait/", "solver/solid/src/material/", "solver/solid/src/rod/"]),
     (
         "faer",
@@ -76,6 +77,7 @@ const FOREIGN: [(&str, &[&str]); 8] = [
             "solver/solid/src/solid/cholesky.rs",
         ],
     ),
+    ("basin", &["solver/reduced/src/soft/search.rs"]),
     ("pulp", &["solver/flow/src/flow/", "solver/linear/src/multifrontal/"]),
     ("metis_sys", &["solver/linear/src/multifrontal/ordering/metis.rs"]),
     ("spade", &["mesh/src/planar/generate/"]),

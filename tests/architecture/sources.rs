@@ -27,21 +27,23 @@ pub fn sources(folder: &str) -> BTreeMap<String, String> {
 }
 
 /// Source folders of all crates.
-pub const CRATES: [&str; 7] = [
+pub const CRATES: [&str; 8] = [
     "mesh/src",
     "solver/case/src",
     "solver/core/src",
     "solver/flow/src",
     "solver/linear/src",
+    "solver/reduced/src",
     "solver/solid/src",
     "solver/src",
 ];
 
 /// Folders of tests beside the sources of crates.
-pub const TESTS: [&str; 6] = [
+pub const TESTS: [&str; 7] = [
     "mesh/tests",
     "solver/case/tests",
     "solver/core/tests",
+    "solver/reduced/tests",
     "solver/solid/tests",
     "solver/tests",
     "tests",

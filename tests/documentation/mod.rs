@@ -115,12 +115,13 @@ fn read_and_check(argument: &str, what: &str) -> CaseFile {
 }
 
 /// Source folders of all crates.
-const CRATES: [&str; 7] = [
+const CRATES: [&str; 8] = [
     "mesh/src",
     "solver/case/src",
     "solver/core/src",
     "solver/flow/src",
     "solver/linear/src",
+    "solver/reduced/src",
     "solver/solid/src",
     "solver/src",
 ];

@@ -36,16 +36,51 @@ const NO_VOLUME: f64 = 1e-14;
 /// # Errors
 /// [`MshError`] with the place and what would be accepted.
 pub fn read_msh<const D: usize>(bytes: &[u8], scale: f64) -> Result<Mesh<D>, MshError> {
-    let file = MshFile::read(bytes)?;
-    let mut facets = NamedFacets::<D>::of(&file)?;
-    facets.forget_unused();
-    let mut parts = parts_of(&file, &facets, scale)?;
-    divide(&mut parts);
-    let mesh = mesh_of(parts, facets.boundaries)?;
-    check_mesh(&mesh).map_err(|error| {
-        MshError::of_mesh(format!("no conforming mesh: {error}"), "mesh the model again in Gmsh")
-    })?;
-    Ok(mesh)
+    let mut read = Read::<D>::of(bytes, scale)?;
+    divide(&mut read.parts);
+    read.mesh()
+}
+
+/// Reads a mesh as [`read_msh`], with all cells as they are: for elastic bodies, which have no pressure that
+/// needs a node inside.
+///
+/// # Errors
+/// [`MshError`] with the place and what would be accepted.
+pub fn read_undivided_msh<const D: usize>(bytes: &[u8], scale: f64) -> Result<Mesh<D>, MshError> {
+    let read = Read::<D>::of(bytes, scale)?;
+    let mut divided = read.clone();
+    divide(&mut divided.parts);
+    // It conforms where the divided one does, which is what can be checked
+    divided.mesh()?;
+    mesh_of(read.parts, read.boundaries)
+}
+
+/// What a file has.
+#[derive(Clone)]
+struct Read<const D: usize> {
+    parts: Parts<D>,
+    boundaries: Vec<Boundary>,
+}
+
+impl<const D: usize> Read<D> {
+    fn of(bytes: &[u8], scale: f64) -> Result<Self, MshError> {
+        let file = MshFile::read(bytes)?;
+        let mut facets = NamedFacets::<D>::of(&file)?;
+        facets.forget_unused();
+        let parts = parts_of(&file, &facets, scale)?;
+        Ok(Self { parts, boundaries: facets.boundaries })
+    }
+
+    fn mesh(self) -> Result<Mesh<D>, MshError> {
+        let mesh = mesh_of(self.parts, self.boundaries)?;
+        check_mesh(&mesh).map_err(|error| {
+            MshError::of_mesh(
+                format!("no conforming mesh: {error}"),
+                "mesh the model again in Gmsh",
+            )
+        })?;
+        Ok(mesh)
+    }
 }
 
 /// Coordinates for a message.

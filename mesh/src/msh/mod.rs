@@ -15,7 +15,7 @@ mod write;
 
 use crate::Mesh;
 
-pub use assemble::read_msh;
+pub use assemble::{read_msh, read_undivided_msh};
 pub use error::{MshError, Place};
 pub use write::{Encoding, write_msh};
 

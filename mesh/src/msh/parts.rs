@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::{BoundaryId, Point, Simplex};
 
 /// Vertices, cells and named facets on the way to a mesh.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Parts<const D: usize> {
     /// Positions of the vertices (m).
     pub vertices: Vec<Point<D>>,

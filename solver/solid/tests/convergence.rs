@@ -48,7 +48,7 @@ fn gradient<const D: usize>(x: &Point<D>, frame: Frame) -> Tensor {
 
 fn stress<const D: usize>(x: &Point<D>, frame: Frame) -> Tensor {
     let principal = Principal::of(&gradient(x, frame)).expect("it is not turned over");
-    principal.stress(MATERIAL.law, MATERIAL.lame())
+    principal.stress(MATERIAL.law, MATERIAL.lame()).stress
 }
 
 /// The force a volume that holds the made deformation: -Div P.

@@ -32,6 +32,13 @@ pub enum Law {
     CorotatedVolume,
 }
 
+/// Energies by the shear modulus and by lambda, and their derivatives by the stretches.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FirstOrder {
+    pub energies: [f64; 2],
+    pub stresses: [[f64; 3]; 2],
+}
+
 impl Law {
     /// The energies a volume by shear modulus and by lambda: with the moduli, their sum is the energy.
     pub(super) fn energies<T: DualNum<Primitive = f64> + Copy>(self, stretches: [T; 3]) -> [T; 2] {
@@ -58,8 +65,23 @@ impl Law {
         }
     }
 
-    /// Derivatives of the energies by the stretches: by shear modulus, and by lambda.
-    pub(super) fn stresses(self, s: [f64; 3]) -> [[f64; 3]; 2] {
+    /// The energies with their derivatives by the stretches.
+    pub(super) fn first_order(self, s: [f64; 3]) -> FirstOrder {
+        if self == Self::CorotatedVolume {
+            // Where it is nearest is found once for both
+            let nearest = nearest_of_unit_volume(s);
+            let apart: [f64; 3] = std::array::from_fn(|i| s[i] - nearest[i]);
+            let square = |a: [f64; 3]| a.iter().map(|a| a * a).sum::<f64>();
+            return FirstOrder {
+                energies: [square(s.map(|s| s - 1.0)), 0.5 * square(apart)],
+                stresses: [s.map(|s| 2.0 * (s - 1.0)), apart],
+            };
+        }
+        FirstOrder { energies: self.energies(s), stresses: self.stresses(s) }
+    }
+
+    /// Derivatives of the energies by the stretches.
+    fn stresses(self, s: [f64; 3]) -> [[f64; 3]; 2] {
         let volume: f64 = s.iter().product();
         match self {
             Self::SaintVenantKirchhoff => {

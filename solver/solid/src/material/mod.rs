@@ -14,7 +14,7 @@ pub use fibre::Fibre;
 pub use law::{Lame, Law};
 pub use moduli::{Material, MaterialError};
 pub use pairs::Moduli;
-pub use principal::Principal;
+pub use principal::{Principal, Stress};
 pub use viscous::Viscous;
 pub(crate) use viscous::green;
 

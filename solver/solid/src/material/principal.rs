@@ -2,11 +2,15 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::law::FirstOrder;
 use super::pairs::PAIRS;
 use super::{Curvature, Lame, Law, Tangent, Tensor};
 
 /// Two columns are orthogonal where the square of their cosine is below this.
 const ORTHOGONAL: f64 = 1e-30;
+
+/// Squared size of a coupling, of the matrix, below which the last rotations are left to the exact ones.
+const ROUGH: f64 = 1e-18;
 
 /// Sweeps at most: four are enough for any matrix of rank three.
 const N_SWEEPS: usize = 30;
@@ -22,6 +26,15 @@ pub struct Principal {
     pub body: Tensor,
 }
 
+/// An energy with its stress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stress {
+    /// Energy a volume at rest (J/m3).
+    pub energy: f64,
+    /// First Piola-Kirchhoff stress P (Pa).
+    pub stress: Tensor,
+}
+
 impl Principal {
     /// Singular values by one-sided Jacobi rotations; none where det F is not positive, that is where a cell
     /// is turned over.
@@ -30,7 +43,9 @@ impl Principal {
         if !(deformation.determinant() > 0.0 && deformation.norm_squared().is_finite()) {
             return None;
         }
-        let (mut columns, mut body) = (*deformation, Tensor::identity());
+        let mut body = directions(deformation.transpose() * deformation);
+        let mut columns = deformation * body;
+        // The square has lost digits of the smaller stretches, if any: they are found here
         for _ in 0..N_SWEEPS {
             let mut is_done = true;
             for [p, q] in PAIRS {
@@ -39,8 +54,8 @@ impl Principal {
                 if dot * dot > ORTHOGONAL * a * b {
                     is_done = false;
                     let zeta = (b - a) / (2.0 * dot);
-                    let tangent = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
-                    let cosine = 1.0 / tangent.hypot(1.0);
+                    let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+                    let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
                     rotate(&mut columns, [p, q], cosine, cosine * tangent);
                     rotate(&mut body, [p, q], cosine, cosine * tangent);
                 }
@@ -70,17 +85,21 @@ impl Principal {
         lame.shear * shear + lame.volume * volume
     }
 
-    /// First Piola-Kirchhoff stress P (Pa).
+    /// Elastic energy a volume at rest and first Piola-Kirchhoff stress.
     #[must_use]
-    pub fn stress(&self, law: Law, lame: Lame) -> Tensor {
-        let [shear, volume] = law.stresses(self.stretches);
-        self.tensor(std::array::from_fn(|i| lame.shear * shear[i] + lame.volume * volume[i]))
+    pub fn stress(&self, law: Law, lame: Lame) -> Stress {
+        let FirstOrder { energies, stresses: [shear, volume] } = law.first_order(self.stretches);
+        Stress {
+            energy: lame.shear * energies[0] + lame.volume * energies[1],
+            stress: self
+                .tensor(std::array::from_fn(|i| lame.shear * shear[i] + lame.volume * volume[i])),
+        }
     }
 
     /// Derivatives of the stress by the shear modulus and by lambda.
     #[must_use]
     pub fn stress_by_moduli(&self, law: Law) -> [Tensor; 2] {
-        law.stresses(self.stretches).map(|values| self.tensor(values))
+        law.first_order(self.stretches).stresses.map(|values| self.tensor(values))
     }
 
     /// Derivatives of the stress by the deformation gradient (Pa).
@@ -110,6 +129,39 @@ impl Principal {
         }
         tangent
     }
+}
+
+/// Eigenvectors of a symmetric matrix by Jacobi rotations, to about half of all digits.
+fn directions(mut square: Tensor) -> Tensor {
+    let mut vectors = Tensor::identity();
+    let rough = ROUGH * square.norm_squared();
+    for _ in 0..N_SWEEPS {
+        let mut is_done = true;
+        for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
+            let coupling = square[(p, q)];
+            if coupling * coupling <= rough {
+                continue;
+            }
+            is_done = false;
+            let third = 2 - pair;
+            let zeta = (square[(q, q)] - square[(p, p)]) / (2.0 * coupling);
+            let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+            let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
+            let sine = cosine * tangent;
+            square[(p, p)] -= tangent * coupling;
+            square[(q, q)] += tangent * coupling;
+            square[(p, q)] = 0.0;
+            let (lower, upper) = ((p.min(third), p.max(third)), (q.min(third), q.max(third)));
+            let (a, b) = (square[lower], square[upper]);
+            square[lower] = cosine * a - sine * b;
+            square[upper] = sine * a + cosine * b;
+            rotate(&mut vectors, [p, q], cosine, sine);
+        }
+        if is_done {
+            break;
+        }
+    }
+    vectors
 }
 
 /// Turns two columns by an angle.

@@ -16,8 +16,7 @@ const NEAR: f64 = 1e-2;
 ///
 /// They obey p_i (s_i - p_i) = kappa.
 pub(super) fn nearest_of_unit_volume<T: DualNum<Primitive = f64> + Copy>(s: [T; 3]) -> [T; 3] {
-    let root = (s[0] * s[1] * s[2]).cbrt();
-    let mut p = s.map(|s| s / root);
+    let mut p = s;
     let mut change = f64::INFINITY;
     let mut left = N_STEPS;
     while left > 0 {
@@ -47,9 +46,10 @@ fn linearised<T: DualNum<Primitive = f64> + Copy>(s: [T; 3], p: [T; 3]) -> [T; 3
 fn newton<T: DualNum<Primitive = f64> + Copy>(s: [T; 3], p: [T; 3]) -> [T; 3] {
     let slope: [T; 3] = std::array::from_fn(|i| s[i] - p[i] * 2.0);
     let value: [T; 3] = std::array::from_fn(|i| p[i] * (s[i] - p[i]));
-    let log = (p[0] * p[1] * p[2]).ln();
+    let volume = p[0] * p[1] * p[2];
+    let excess = (volume - 1.0) / volume;
     let sum = |part: &dyn Fn(usize) -> T| part(0) + part(1) + part(2);
     let kappa =
-        (sum(&|i| value[i] / (slope[i] * p[i])) - log) / sum(&|i| (slope[i] * p[i]).recip());
+        (sum(&|i| value[i] / (slope[i] * p[i])) - excess) / sum(&|i| (slope[i] * p[i]).recip());
     std::array::from_fn(|i| p[i] + (kappa - value[i]) / slope[i])
 }

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 
 use super::build::Solid;
 use super::geometry::{At, MAX_NODES, MAX_UNKNOWNS};
-use crate::material::{Curvature, Fibre, Principal, Tangent, Tensor, Viscous, green};
+use crate::material::{Curvature, Fibre, Principal, Stress, Tangent, Tensor, Viscous, green};
 
 /// Green's strain as the backward difference of a step has it from levels before.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +34,20 @@ pub(super) struct Controls<'a> {
     pub damping: Option<&'a StrainHistory>,
 }
 
+/// Which stiffness is added, and how much of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stiffness {
+    pub curvature: Curvature,
+    pub factor: f64,
+}
+
+/// A deformation gradient with its singular values.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Deformed {
+    deformation: Tensor,
+    principal: Principal,
+}
+
 /// What acts at a quadrature point.
 pub(super) struct Response<'a, const D: usize> {
     solid: &'a Solid<D>,
@@ -45,23 +59,20 @@ pub(super) struct Response<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Response<'a, D> {
-    /// The response to places of the nodes of a cell; none where the cell is turned over.
-    pub(super) fn new(
+    fn new(
         solid: &'a Solid<D>,
         cell: usize,
-        point: usize,
-        places: &[Point<D>],
+        number: usize,
         controls: Controls<'a>,
-    ) -> Option<Self> {
-        let deformation = solid.points.at(cell, point).deformation(places);
+        at: Deformed,
+    ) -> Self {
         let viscosity = solid.spec.materials[solid.material_of(cell)].viscosity;
-        let number = cell * solid.points.n_points + point;
         let viscous = controls.damping.filter(|_| viscosity > 0.0).map(|history| Viscous {
             stiffness: 2.0 * viscosity * history.rate,
             history: history.strains[number],
         });
-        let principal = Principal::of(&deformation)?;
-        Some(Self { solid, cell, deformation, principal, viscous, controls })
+        let Deformed { deformation, principal } = at;
+        Self { solid, cell, deformation, principal, viscous, controls }
     }
 
     /// Fibres of the cell.
@@ -89,26 +100,23 @@ impl<'a, const D: usize> Response<'a, D> {
         self.viscous.as_ref()
     }
 
-    fn energy(&self) -> f64 {
-        let material = self.solid.material_of(self.cell);
-        let law = self.solid.spec.materials[material].law;
-        let mut energy = self.principal.energy(law, self.solid.lame[material]);
-        for (_, fibre) in self.fibres() {
-            energy += fibre.energy(&self.deformation);
-        }
-        energy + self.viscous.map_or(0.0, |viscous| viscous.energy(&self.deformation))
+    /// The singular values of the deformation.
+    pub(super) fn principal(&self) -> &Principal {
+        &self.principal
     }
 
-    /// First Piola-Kirchhoff stress (Pa) of all together.
-    pub(super) fn stress(&self) -> Tensor {
+    /// Energy and first Piola-Kirchhoff stress of all together.
+    pub(super) fn stress(&self) -> Stress {
         let material = self.solid.material_of(self.cell);
         let law = self.solid.spec.materials[material].law;
         let mut stress = self.principal.stress(law, self.solid.lame[material]);
         for (_, fibre) in self.fibres() {
-            stress += fibre.stress(&self.deformation);
+            stress.energy += fibre.energy(&self.deformation);
+            stress.stress += fibre.stress(&self.deformation);
         }
         if let Some(viscous) = &self.viscous {
-            stress += viscous.stress(&self.deformation);
+            stress.energy += viscous.energy(&self.deformation);
+            stress.stress += viscous.stress(&self.deformation);
         }
         stress
     }
@@ -135,15 +143,36 @@ impl<const D: usize> Solid<D> {
         &'a self,
         places: &[f64],
         controls: Controls<'a>,
+        visit: impl FnMut(usize, At<'a, D>, Response<'a, D>),
+    ) -> bool {
+        self.each_known_point(places, controls, &[], visit)
+    }
+
+    /// The same with singular values that are known, of all points or of none.
+    pub(super) fn each_known_point<'a>(
+        &'a self,
+        places: &[f64],
+        controls: Controls<'a>,
+        known: &[Principal],
         mut visit: impl FnMut(usize, At<'a, D>, Response<'a, D>),
     ) -> bool {
         let mut local = [Point::<D>::zeros(); MAX_NODES];
         for cell in 0..self.spec.mesh.n_cells() {
             let local = self.gather(cell, places, &mut local);
             for k in 0..self.points.n_points {
-                let Some(response) = Response::new(self, cell, k, local, controls) else {
+                let deformation = self.points.at(cell, k).deformation(local);
+                let number = cell * self.points.n_points + k;
+                let principal = known.get(number).copied();
+                let Some(principal) = principal.or_else(|| Principal::of(&deformation)) else {
                     return false;
                 };
+                let response = Response::new(
+                    self,
+                    cell,
+                    number,
+                    controls,
+                    Deformed { deformation, principal },
+                );
                 visit(cell, self.points.at(cell, k), response);
             }
         }
@@ -162,24 +191,30 @@ impl<const D: usize> Solid<D> {
     pub(super) fn energy_of(&self, places: &[f64], controls: Controls<'_>) -> Option<f64> {
         let mut energy = 0.0;
         let visit = |_, at: At<'_, D>, response: Response<'_, D>| {
-            energy += at.weight * response.energy();
+            energy += at.weight * response.stress().energy;
         };
         self.each_point(places, controls, visit).then_some(energy)
     }
 
     /// Adds a multiple of the inner forces of a state, and returns its energy; none where a cell is turned over.
+    /// Singular values found on the way go to `known`.
     pub(super) fn add_forces(
         &self,
         places: &[f64],
         controls: Controls<'_>,
         factor: f64,
         forces: &mut [f64],
+        known: &mut Vec<Principal>,
     ) -> Option<f64> {
         let mut energy = 0.0;
+        known.clear();
+        known.reserve(self.points.weights.len());
         let visit = |cell, at: At<'_, D>, response: Response<'_, D>| {
-            energy += at.weight * response.energy();
+            let Stress { energy: part, stress } = response.stress();
+            energy += at.weight * part;
+            known.push(*response.principal());
             let mut local = [0.0; MAX_UNKNOWNS];
-            at.add_forces(&response.stress(), &mut local);
+            at.add_forces(&stress, &mut local);
             for (a, node) in self.nodes_of(cell).iter().enumerate() {
                 for i in 0..D {
                     forces[node * D + i] += factor * local[a * D + i];
@@ -194,14 +229,15 @@ impl<const D: usize> Solid<D> {
         &self,
         places: &[f64],
         controls: Controls<'_>,
-        curvature: Curvature,
-        factor: f64,
+        known: &[Principal],
+        wanted: Stiffness,
         values: &mut [f64],
     ) -> bool {
+        let Stiffness { curvature, factor } = wanted;
         let last = self.points.n_points - 1;
         let mut matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
         let mut point = 0;
-        self.each_point(places, controls, |cell, at, response| {
+        self.each_known_point(places, controls, known, |cell, at, response| {
             add_point(&at, &response.tangent(curvature), factor, &mut matrix);
             if point == last {
                 self.pattern.add_cell(cell, values, |p, q| matrix[p][q]);

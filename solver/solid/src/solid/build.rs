@@ -161,6 +161,16 @@ impl<const D: usize> Solid<D> {
         D * self.spec.mesh.nodes.len()
     }
 
+    /// The components that are held, ascending.
+    #[must_use]
+    pub fn held(&self) -> Vec<usize> {
+        let mut is_free = vec![false; self.n_components()];
+        for component in &self.pattern.components {
+            is_free[*component] = true;
+        }
+        (0..is_free.len()).filter(|component| !is_free[*component]).collect()
+    }
+
     /// Number of components that are free.
     #[must_use]
     pub fn n_unknowns(&self) -> usize {

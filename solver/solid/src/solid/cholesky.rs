@@ -11,6 +11,12 @@ use faer::{Conj, MatMut, Par, Side};
 use super::SolidError;
 use super::pattern::Pattern;
 
+/// Residual, of the right-hand side, at which conjugate gradients end: far below what gradients are compared to.
+const SOLVED: f64 = 1e-11;
+
+/// Iterations of conjugate gradients at most; more cost as much as new factors.
+const N_ITERATIONS: usize = 14;
+
 /// The order of elimination and the pattern of the factors, for all matrices of a pattern.
 #[derive(Debug)]
 pub struct Cholesky {
@@ -76,5 +82,46 @@ impl Cholesky {
             Par::Seq,
             MemStack::new(&mut memory),
         );
+    }
+
+    /// Solves for a matrix whose factors are nearly those at hand; none where that takes longer than new factors.
+    #[must_use]
+    pub fn conjugate_gradients(
+        &self,
+        pattern: &Pattern,
+        values: &[f64],
+        factor: &Factor,
+        right: &[f64],
+    ) -> Option<Vec<f64>> {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let add = |to: &mut [f64], factor: f64, from: &[f64]| {
+            to.iter_mut().zip(from).for_each(|(a, b)| *a += factor * b);
+        };
+        let target = SOLVED * dot(right, right).sqrt();
+        let mut solution = vec![0.0; right.len()];
+        let mut residual = right.to_vec();
+        let mut direction = vec![0.0; right.len()];
+        let mut last = 1.0;
+        for _ in 0..N_ITERATIONS {
+            if dot(&residual, &residual).sqrt() <= target {
+                return Some(solution);
+            }
+            let mut solved = residual.clone();
+            self.solve(factor, &mut solved);
+            let product = dot(&residual, &solved);
+            let ratio = product / last;
+            for (d, s) in direction.iter_mut().zip(&solved) {
+                *d = s + ratio * *d;
+            }
+            let image = pattern.times(values, &direction);
+            let curvature = dot(&direction, &image);
+            if !(curvature > 0.0 && product > 0.0) {
+                return None;
+            }
+            add(&mut solution, product / curvature, &direction);
+            add(&mut residual, -product / curvature, &image);
+            last = product;
+        }
+        None
     }
 }

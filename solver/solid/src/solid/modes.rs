@@ -31,7 +31,7 @@ impl<const D: usize> Solid<D> {
         let none = vec![0.0; self.n_components()];
         let potential = Potential::at_rest(self, targets, &none);
         let turned_over = || SolidError::TurnedOver(self.turned_over(places).unwrap_or_default());
-        let values = potential.curvature(places, Curvature::True).ok_or_else(turned_over)?;
+        let values = potential.curvature(places, Curvature::True, &[]).ok_or_else(turned_over)?;
         let factor = self.cholesky.factorise(&self.pattern, &values).ok_or(SolidError::Singular)?;
         let n = self.n_unknowns();
         let count = count.min(n);

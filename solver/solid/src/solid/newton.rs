@@ -3,13 +3,13 @@
 use super::SolidError;
 use super::cholesky::Factor;
 use super::potential::{Potential, Slope, norm};
-use crate::material::Curvature;
+use crate::material::{Curvature, Principal};
 
 /// Part of the decrease the slope promises that a step has to reach (Armijo's rule).
 const ARMIJO: f64 = 1e-4;
 
 /// Factors are kept while an iteration divides the residual by more than one over this.
-const KEPT: f64 = 0.3;
+const KEPT: f64 = 0.1;
 
 /// Halvings of a step at most: from a state that is not turned over, one this short decreases the potential.
 const N_HALVINGS: usize = 40;
@@ -33,6 +33,8 @@ pub struct Minimiser {
     factor: Option<Factor>,
     /// Factorisations made so far.
     pub n_factors: usize,
+    /// Iterations made so far.
+    pub n_iterations: usize,
 }
 
 /// A minimum.
@@ -50,7 +52,7 @@ pub struct Minimum {
 
 impl Default for Minimiser {
     fn default() -> Self {
-        Self { tolerance: 1e-10, max_iterations: 200, factor: None, n_factors: 0 }
+        Self { tolerance: 1e-10, max_iterations: 200, factor: None, n_factors: 0, n_iterations: 0 }
     }
 }
 
@@ -98,9 +100,10 @@ impl Minimiser {
             if residual <= (self.tolerance * scale).max(BALANCED * rounding.slope) {
                 return Ok(Minimum { places, iterations, residual, slope: at.slope });
             }
+            self.n_iterations += 1;
             let is_fresh = self.factor.is_none() || is_stale;
             if is_fresh {
-                self.factor = Some(self.factorise(potential, &places)?);
+                self.factor = Some(self.factorise(potential, &places, &at.known)?);
             }
             let Some(factor) = &self.factor else { return Err(SolidError::Singular) };
             let mut direction = right.clone();
@@ -127,10 +130,12 @@ impl Minimiser {
         &mut self,
         potential: &Potential<'_, D>,
         places: &[f64],
+        known: &[Principal],
     ) -> Result<Factor, SolidError> {
         let solid = potential.solid;
         for curvature in [Curvature::True, Curvature::Positive] {
-            let mut values = potential.curvature(places, curvature).ok_or(SolidError::Singular)?;
+            let mut values =
+                potential.curvature(places, curvature, known).ok_or(SolidError::Singular)?;
             self.n_factors += 1;
             if let Some(factor) = solid.cholesky.factorise(&solid.pattern, &values) {
                 return Ok(factor);

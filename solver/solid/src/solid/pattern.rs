@@ -124,6 +124,24 @@ impl Pattern {
         }
     }
 
+    /// A symmetric matrix, by its values, times a list of unknowns.
+    #[must_use]
+    pub fn times(&self, values: &[f64], free: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; free.len()];
+        for column in 0..free.len() {
+            let (first, end) = (self.starts[column], self.starts[column + 1]);
+            // The diagonal comes first
+            let mut sum = values[first] * free[column];
+            for entry in first + 1..end {
+                let row = self.rows[entry];
+                product[row] += values[entry] * free[column];
+                sum += values[entry] * free[row];
+            }
+            product[column] += sum;
+        }
+        product
+    }
+
     /// The unknowns of a list of all components.
     #[must_use]
     pub fn free(&self, all: &[f64]) -> Vec<f64> {

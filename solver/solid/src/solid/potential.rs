@@ -2,10 +2,10 @@
 
 use alewife_mesh::Point;
 
-use super::assemble::{Controls, StrainHistory};
+use super::assemble::{Controls, Stiffness, StrainHistory};
 use super::build::Solid;
 use super::geometry::MAX_NODES;
-use crate::material::Curvature;
+use crate::material::{Curvature, Principal};
 
 /// Inertia of a step: the energy c/2 (x - y)^2 in the norm of the mass.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +52,8 @@ pub(super) struct Slope {
     pub slope: Vec<f64>,
     /// Norm (N) of the largest of the forces of free components that balance.
     pub scale: f64,
+    /// Singular values of the deformations at all points; empty where there are several states.
+    pub known: Vec<Principal>,
 }
 
 impl<'a, const D: usize> Potential<'a, D> {
@@ -87,10 +89,15 @@ impl<'a, const D: usize> Potential<'a, D> {
     /// The potential and its slope; none where a cell is turned over.
     pub(super) fn slope(&self, places: &[f64]) -> Option<Slope> {
         let mut slope = vec![0.0; places.len()];
-        let mut value = 0.0;
+        let (mut value, mut known) = (0.0, Vec::new());
         for stage in self.stages(places) {
-            let energy =
-                self.solid.add_forces(&stage.places, self.controls(), stage.weight, &mut slope)?;
+            let energy = self.solid.add_forces(
+                &stage.places,
+                self.controls(),
+                stage.weight,
+                &mut slope,
+                &mut known,
+            )?;
             value += stage.weight / stage.share * energy;
         }
         let free = |all: &[f64]| norm(&self.solid.pattern.free(all));
@@ -108,11 +115,21 @@ impl<'a, const D: usize> Potential<'a, D> {
             }
             scale = scale.max(inertia.factor * free(&forces));
         }
-        Some(Slope { value, slope, scale })
+        if self.way.is_some() {
+            // There are others along the way
+            known.clear();
+        }
+        Some(Slope { value, slope, scale, known })
     }
 
-    /// Its second derivatives by the unknowns; none where a cell is turned over.
-    pub(super) fn curvature(&self, places: &[f64], curvature: Curvature) -> Option<Vec<f64>> {
+    /// Its second derivatives by the unknowns, with singular values where they are known; none where a cell is
+    /// turned over.
+    pub(super) fn curvature(
+        &self,
+        places: &[f64],
+        curvature: Curvature,
+        known: &[Principal],
+    ) -> Option<Vec<f64>> {
         let pattern = &self.solid.pattern;
         let mut values = vec![0.0; pattern.n_entries()];
         for stage in self.stages(places) {
@@ -120,8 +137,8 @@ impl<'a, const D: usize> Potential<'a, D> {
             let is_whole = self.solid.add_stiffness(
                 &stage.places,
                 self.controls(),
-                curvature,
-                factor,
+                known,
+                Stiffness { curvature, factor },
                 &mut values,
             );
             if !is_whole {

@@ -24,6 +24,8 @@ pub struct Sensitivity {
     pub targets: Vec<f64>,
     /// By the places of all nodes at rest; empty where it was not asked for.
     pub shape: Vec<f64>,
+    /// By the places of all nodes, inertia aside; empty where the shape was not asked for.
+    pub places: Vec<f64>,
 }
 
 impl Sensitivity {
@@ -35,31 +37,39 @@ impl Sensitivity {
             fibre_stiffness: vec![0.0; n_sets],
             targets: vec![0.0; n_sets],
             shape: vec![0.0; if with_shape { solid.n_components() } else { 0 }],
+            places: vec![0.0; if with_shape { solid.n_components() } else { 0 }],
         }
     }
 }
 
 impl<const D: usize> Solid<D> {
-    /// Factors of the second derivatives of a potential at its minimum.
+    /// Solves the linear system of a potential at its minimum for a list of all components, as the adjoint
+    /// of a step asks for: by conjugate gradients where factors at hand are near, else by new ones, which are
+    /// kept. Zero where held.
     ///
     /// # Errors
     /// [`SolidError::TurnedOver`], and [`SolidError::Singular`] where the state is no minimum.
-    pub fn factorise(
+    pub fn solve_at(
         &self,
         potential: &Potential<'_, D>,
         places: &[f64],
-    ) -> Result<Factor, SolidError> {
+        right: &[f64],
+        factor: &mut Option<Factor>,
+    ) -> Result<Vec<f64>, SolidError> {
         let turned_over = || SolidError::TurnedOver(self.turned_over(places).unwrap_or_default());
-        let values = potential.curvature(places, Curvature::True).ok_or_else(turned_over)?;
-        self.cholesky.factorise(&self.pattern, &values).ok_or(SolidError::Singular)
-    }
-
-    /// Solves with factors for a list of all components; zero where held.
-    #[must_use]
-    pub fn solve(&self, factor: &Factor, right: &[f64]) -> Vec<f64> {
-        let mut free = self.pattern.free(right);
-        self.cholesky.solve(factor, &mut free);
-        self.pattern.all(&free)
+        let values = potential.curvature(places, Curvature::True, &[]).ok_or_else(turned_over)?;
+        let right = self.pattern.free(right);
+        let near = factor.as_ref().and_then(|factor| {
+            self.cholesky.conjugate_gradients(&self.pattern, &values, factor, &right)
+        });
+        if let Some(solution) = near {
+            return Ok(self.pattern.all(&solution));
+        }
+        let new = self.cholesky.factorise(&self.pattern, &values).ok_or(SolidError::Singular)?;
+        let mut solution = right.clone();
+        self.cholesky.solve(&new, &mut solution);
+        *factor = Some(new);
+        Ok(self.pattern.all(&solution))
     }
 
     /// Derivatives of z . r at a state, the slope r of a potential with inertia or without; `levels` are those
@@ -98,7 +108,9 @@ impl<const D: usize> Solid<D> {
                 found.targets[set] += at.weight * fibre.stress_by_target(deformation).dot(&rate);
             }
             if levels.is_some() {
-                let mut stress = shape_stress(&response, &rate);
+                let moved = moved_stress(&response, &rate);
+                self.add(cell, &at, &moved, &mut found.places);
+                let mut stress = shape_stress(&response, &rate, &moved);
                 if let Some(viscous) = response.viscous() {
                     let strain = symmetric(&(response.deformation().transpose() * rate));
                     for (factor, deformations) in &before {
@@ -209,18 +221,22 @@ fn symmetric(tensor: &Tensor) -> Tensor {
     (tensor + tensor.transpose()) * 0.5
 }
 
+/// What the stress changes by where the places change by a field of this gradient.
+fn moved_stress<const D: usize>(response: &Response<'_, D>, rate: &Tensor) -> Tensor {
+    let row = nalgebra::SVector::<f64, 9>::from_fn(|k, _| rate[(k / 3, k % 3)]);
+    let moved = response.tangent(Curvature::True) * row;
+    Tensor::from_fn(|i, j| moved[3 * i + j])
+}
+
 /// What w P : Grad z, a volume w at rest, changes by where the places at rest change by Y, over Grad Y:
 /// volumes grow by its trace, gradients shrink by it.
-fn shape_stress<const D: usize>(response: &Response<'_, D>, rate: &Tensor) -> Tensor {
-    let stress = response.stress();
-    let deformation = response.deformation();
-    let mut row = nalgebra::SVector::<f64, 9>::zeros();
-    for k in 0..9 {
-        row[k] = rate[(k / 3, k % 3)];
-    }
-    let moved = response.tangent(Curvature::True) * row;
-    let moved = Tensor::from_fn(|i, j| moved[3 * i + j]);
+fn shape_stress<const D: usize>(
+    response: &Response<'_, D>,
+    rate: &Tensor,
+    moved: &Tensor,
+) -> Tensor {
+    let stress = response.stress().stress;
     Tensor::identity() * stress.dot(rate)
-        - deformation.transpose() * moved
+        - response.deformation().transpose() * moved
         - rate.transpose() * stress
 }

@@ -187,10 +187,11 @@ impl<const D: usize> Solid<D> {
         for component in &self.pattern.components {
             start[*component] += step * motion.velocities[*component];
         }
-        if self.turned_over(&start).is_some() {
-            start = still;
-        }
-        let minimum = minimiser.minimise(&potential, &start)?;
+        let minimum = match minimiser.minimise(&potential, &start) {
+            // Coasting would turn a cell over
+            Err(SolidError::TurnedOver(_)) => minimiser.minimise(&potential, &still)?,
+            other => other?,
+        };
         Ok(Motion {
             velocities: self.velocities_after(motion, scheme, step, &minimum.places),
             places: minimum.places,

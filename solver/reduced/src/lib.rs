@@ -1,0 +1,3 @@
+//! Swimmers without a flow: loads by laws, gradients of whole motions, calibration and optimisation.
+
+pub mod soft;

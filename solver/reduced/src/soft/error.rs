@@ -1,0 +1,49 @@
+//! `SoftError`: why a motion, a record or a search is refused or fails.
+
+use alewife_solid::solid::SolidError;
+use thiserror::Error;
+
+/// What is wrong in the soft tier.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SoftError {
+    /// The body, or a step of it.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
+    /// A step of a motion failed.
+    #[error("step {step} of {n_steps}: {error}")]
+    Step {
+        /// Number of the step, from 1.
+        step: usize,
+        /// Steps of the motion.
+        n_steps: usize,
+        /// Why.
+        error: SolidError,
+    },
+    /// A curve of loads has too few or wrong points.
+    #[error("{0}")]
+    Curve(String),
+    /// A plan is not one: steps, substeps, stretches.
+    #[error("{0}")]
+    Plan(String),
+    /// A recording cannot be used: the row counts from 1, the header being row 1.
+    #[error("{file}, row {row}: {what}")]
+    Record {
+        /// The file.
+        file: String,
+        /// Row of the file.
+        row: usize,
+        /// What is wrong, and what is accepted.
+        what: String,
+    },
+    /// Bounds of a search and its start do not fit.
+    #[error("{name}: {what}")]
+    Bounds {
+        /// Name of the parameter.
+        name: String,
+        /// What is wrong, and what is accepted.
+        what: String,
+    },
+    /// The method of a search failed otherwise.
+    #[error("the search failed: {0}")]
+    Search(String),
+}

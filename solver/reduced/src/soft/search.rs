@@ -1,0 +1,281 @@
+//! `minimise`: bounded L-BFGS over named parameters, which can be taken up again with the same bits.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use basin::{
+    BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction, Executor,
+    FirstOrderState, Gradient, Lbfgsb, Termination,
+};
+
+use super::SoftError;
+
+/// Pairs of steps and slopes that the method keeps.
+const MEMORY: usize = 10;
+
+/// A parameter of a search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounded {
+    /// Its name, for messages and reports.
+    pub name: String,
+    /// Where the search starts.
+    pub start: f64,
+    /// Lower bound.
+    pub lower: f64,
+    /// Upper bound.
+    pub upper: f64,
+    /// The size of a change that matters; where there is none the logarithm is searched, of positive numbers.
+    pub scale: Option<f64>,
+}
+
+impl Bounded {
+    fn check(&self) -> Result<(), SoftError> {
+        let Self { start, lower, upper, .. } = *self;
+        let wrong = |what: String| Err(SoftError::Bounds { name: self.name.clone(), what });
+        if ![start, lower, upper].iter().all(|value| value.is_finite()) || lower > upper {
+            return wrong(format!(
+                "the bounds {lower} and {upper} and the start {start} are not \
+                three numbers with the first not above the second"
+            ));
+        }
+        if !(lower <= start && start <= upper) {
+            return wrong(format!(
+                "the start {start} is not between the bounds {lower} and {upper}: widen them or move it"
+            ));
+        }
+        match self.scale {
+            Some(scale) if !(scale > 0.0 && scale.is_finite()) => {
+                wrong(format!("the scale {scale} is not positive"))
+            }
+            None if lower <= 0.0 => wrong(format!(
+                "without a scale the logarithm is searched, and the lower bound {lower} has none"
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// The number that is searched.
+    fn searched(&self, value: f64) -> f64 {
+        self.scale.map_or_else(|| value.ln(), |scale| value / scale)
+    }
+
+    /// The parameter of a searched number, exactly a bound where it is one.
+    fn value(&self, searched: f64) -> f64 {
+        if searched <= self.searched(self.lower) {
+            return self.lower;
+        }
+        if searched >= self.searched(self.upper) {
+            return self.upper;
+        }
+        self.scale.map_or_else(|| searched.exp(), |scale| searched * scale)
+    }
+
+    /// Derivative of the parameter by the searched number.
+    fn slope(&self, value: f64) -> f64 {
+        self.scale.unwrap_or(value)
+    }
+}
+
+/// An objective at values of the parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evaluated {
+    /// Values of the parameters.
+    pub values: Vec<f64>,
+    /// The objective.
+    pub objective: f64,
+    /// Its derivatives by the parameters.
+    pub slopes: Vec<f64>,
+}
+
+/// How a search goes on and ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search {
+    /// Evaluations at most, those known included.
+    pub max_evaluations: usize,
+    /// Relative decrease of the objective in an iteration that ends the search.
+    pub decrease: f64,
+    /// Slope, of the objective at the start, below which no parameter would change it.
+    pub slope: f64,
+    /// What an earlier search that was stopped has evaluated, in order: it is not evaluated again, and so the
+    /// search goes on with the same bits.
+    pub known: Vec<Evaluated>,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self { max_evaluations: 100, decrease: 1e-6, slope: 1e-6, known: Vec::new() }
+    }
+}
+
+/// Why a search ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ended {
+    /// It converged.
+    Converged,
+    /// Its evaluations are used up.
+    Evaluations,
+    /// An evaluation, or the method, failed: the best point so far is what there is.
+    Failed(String),
+}
+
+/// What a search found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// The best of all evaluations.
+    pub best: Evaluated,
+    /// All evaluations, in order.
+    pub all: Vec<Evaluated>,
+    /// Why it ended.
+    pub ended: Ended,
+}
+
+/// Why an evaluation was not made.
+#[derive(Debug, Clone, PartialEq)]
+enum Stop {
+    UsedUp,
+    Failed(SoftError),
+}
+
+/// The objective as the method sees it, scaled by its value at the start.
+struct Scaled<'a, E> {
+    parameters: &'a [Bounded],
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    max_evaluations: usize,
+    state: &'a RefCell<State<E>>,
+}
+
+struct State<E> {
+    evaluate: E,
+    known: HashMap<Vec<u64>, Evaluated>,
+    all: Vec<Evaluated>,
+    stop: Option<Stop>,
+}
+
+impl<E: FnMut(&[f64]) -> Result<Evaluated, SoftError>> Scaled<'_, E> {
+    /// The objective at searched numbers.
+    fn at(&self, searched: &[f64]) -> Result<Evaluated, String> {
+        let values: Vec<f64> =
+            self.parameters.iter().zip(searched).map(|(p, s)| p.value(*s)).collect();
+        let key: Vec<u64> = values.iter().map(|value| value.to_bits()).collect();
+        let mut state = self.state.borrow_mut();
+        let is_met = state.all.iter().any(|found| found.values == values);
+        if let Some(found) = state.known.get(&key).cloned() {
+            if !is_met {
+                state.all.push(found.clone());
+            }
+            return Ok(found);
+        }
+        if state.all.len() >= self.max_evaluations {
+            state.stop = Some(Stop::UsedUp);
+            return Err("no evaluation is left".to_owned());
+        }
+        match (state.evaluate)(&values) {
+            Ok(found) => {
+                state.known.insert(key, found.clone());
+                state.all.push(found.clone());
+                Ok(found)
+            }
+            Err(error) => {
+                let said = error.to_string();
+                state.stop = Some(Stop::Failed(error));
+                Err(said)
+            }
+        }
+    }
+
+    /// The size the objective is divided by.
+    fn size(&self) -> f64 {
+        let state = self.state.borrow();
+        let first = state.all.first().map_or(1.0, |found| found.objective.abs());
+        if first > 0.0 { first } else { 1.0 }
+    }
+}
+
+impl<E> Constraints for Scaled<'_, E> {
+    type Set = ConstraintSet<BoxBounds<Vec<f64>>>;
+
+    fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
+        ConstraintSet::new().with_bounds(BoxBounds::new(Some(&self.lower), Some(&self.upper)))
+    }
+}
+
+impl<E: FnMut(&[f64]) -> Result<Evaluated, SoftError>> CostFunction for Scaled<'_, E> {
+    type Param = Vec<f64>;
+    type Output = f64;
+    type Error = String;
+
+    fn cost(&self, searched: &Vec<f64>) -> Result<f64, String> {
+        let found = self.at(searched)?;
+        Ok(found.objective / self.size())
+    }
+}
+
+impl<E: FnMut(&[f64]) -> Result<Evaluated, SoftError>> Gradient for Scaled<'_, E> {
+    type Gradient = Vec<f64>;
+
+    fn gradient(&self, searched: &Vec<f64>) -> Result<Vec<f64>, String> {
+        let found = self.at(searched)?;
+        let size = self.size();
+        let slopes = self.parameters.iter().zip(&found.values).zip(&found.slopes);
+        Ok(slopes.map(|((parameter, value), s)| s * parameter.slope(*value) / size).collect())
+    }
+}
+
+/// Makes an objective small within bounds. `evaluate` gives the objective and its derivatives by the parameters;
+/// it is called once for each set of values, and can report and store them.
+///
+/// # Errors
+/// [`SoftError::Bounds`], and that of the evaluation at the start. Later failures end the search at its best.
+pub fn minimise(
+    parameters: &[Bounded],
+    search: &Search,
+    evaluate: impl FnMut(&[f64]) -> Result<Evaluated, SoftError>,
+) -> Result<Found, SoftError> {
+    for parameter in parameters {
+        parameter.check()?;
+    }
+    let key = |found: &Evaluated| found.values.iter().map(|value| value.to_bits()).collect();
+    let bound = |of: fn(&Bounded) -> f64| parameters.iter().map(|p| p.searched(of(p))).collect();
+    let state = RefCell::new(State {
+        evaluate,
+        known: search.known.iter().map(|found| (key(found), found.clone())).collect(),
+        all: Vec::new(),
+        stop: None,
+    });
+    let problem = Scaled {
+        parameters,
+        lower: bound(|p| p.lower),
+        upper: bound(|p| p.upper),
+        max_evaluations: search.max_evaluations.max(1),
+        state: &state,
+    };
+    let start: Vec<f64> = bound(|p| p.start);
+    if let Err(said) = problem.at(&start) {
+        let stop = state.borrow_mut().stop.take();
+        return Err(match stop {
+            Some(Stop::Failed(error)) => error,
+            _ => SoftError::Search(said),
+        });
+    }
+    let method = Lbfgsb::new()
+        .with_m_capacity(MEMORY)
+        .with_absolute_projected_gradient_tolerance(search.slope)
+        .with_relative_cost_reduction_tolerance(search.decrease);
+    let result = Executor::new(problem, method, FirstOrderState::new(start))
+        .max_iter(search.max_evaluations as u64)
+        .run();
+    let ended = match (state.borrow_mut().stop.take(), result) {
+        (Some(Stop::UsedUp), _) => Ended::Evaluations,
+        (Some(Stop::Failed(error)), _) => Ended::Failed(error.to_string()),
+        (None, Err(error)) => Ended::Failed(error.to_string()),
+        (None, Ok(result)) => match result.report.termination {
+            Termination::Converged(_) => Ended::Converged,
+            other => Ended::Failed(format!("{other:?}")),
+        },
+    };
+    let all = state.into_inner().all;
+    let best = all.iter().min_by(|a, b| a.objective.total_cmp(&b.objective)).cloned();
+    let best = best.ok_or_else(|| SoftError::Search("nothing was evaluated".to_owned()))?;
+    Ok(Found { best, all, ended })
+}
