@@ -7,5 +7,6 @@ mod documentation;
 mod linear_solver;
 mod motion;
 mod moving;
+mod session;
 mod spatial;
 mod swimming;

@@ -73,6 +73,10 @@ fn log_recoils<const D: usize>(problem: &Problem<D>) -> Result<(), RunError> {
         let Some(shape) = &body.shape else { continue };
         let motion =
             shape.recoil().map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+        // Of what is asked for while the run goes on it is not known before
+        if motion.duration == 0.0 {
+            continue;
+        }
         tracing::info!(
             body = body.name,
             translation = motion.translation,
