@@ -53,7 +53,8 @@ def main() -> None:
     if not stamp.is_file() or stamp.read_text(encoding="utf-8") != text:
         project = tomllib.loads(text)["project"]
         wanted = project["dependencies"] + requirements("test", project)
-        pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+        pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-compile"]
+        pip.append("--disable-pip-version-check")
         subprocess.run([*pip, *wanted], check=True)
         stamp.write_text(text, encoding="utf-8")
     sources = Path(sysconfig.get_path("purelib")) / "alewife.pth"

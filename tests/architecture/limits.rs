@@ -1,4 +1,6 @@
-//! Functions, files and signatures stay small enough to be read.
+//! Functions, files, folders and signatures stay small enough to be read.
+
+use std::collections::BTreeMap;
 
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
@@ -7,6 +9,9 @@ use super::sources::{all_sources, sources, syntax};
 
 /// Lines of a file.
 const FILE: usize = 400;
+
+/// Source files of a folder, its door `mod.rs` or `lib.rs` included.
+const FOLDER: usize = 15;
 
 /// Lines of a function, element kernels excepted.
 const FUNCTION: usize = 70;
@@ -126,4 +131,17 @@ fn files_are_short() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn folders_have_few_files() {
+    let all: Vec<String> =
+        ["mesh", "solver", "tests"].into_iter().flat_map(sources).map(|(file, _)| file).collect();
+    let mut n_files = BTreeMap::<&str, usize>::new();
+    for file in &all {
+        let (folder, _) = file.rsplit_once('/').expect("a file lies in a folder");
+        *n_files.entry(folder).or_default() += 1;
+    }
+    let crowded: Vec<_> = n_files.iter().filter(|&(_, &n_files)| n_files > FOLDER).collect();
+    assert!(crowded.is_empty(), "more than {FOLDER} files: {crowded:?}");
 }

@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 24] = [
+const ROOMS: [(&str, &[&str]); 28] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -22,6 +22,10 @@ const ROOMS: [(&str, &[&str]); 24] = [
     ("multigrid", &["sparse"]),
     ("algebra", &["multifrontal", "multigrid", "sparse"]),
     ("structure", &[]),
+    ("dry", &["structure"]),
+    ("rod", &["dry", "structure"]),
+    ("material", &[]),
+    ("solid", &["material"]),
     ("time", &["case"]),
     ("body", &["time"]),
     ("contact", &["body"]),
@@ -54,8 +58,15 @@ const ROOMS: [(&str, &[&str]); 24] = [
 
 /// Foreign crates that may be named in some rooms or files only.
 const FOREIGN: [(&str, &[&str]); 8] = [
-    ("num_dual", &["solver/core/src/gait/"]),
-    ("faer", &["solver/linear/src/algebra/", "solver/linear/src/multifrontal/"]),
+    ("num_dual", &["solver/core/src/gait/", "solver/solid/src/material/", "solver/solid/src/rod/"]),
+    (
+        "faer",
+        &[
+            "solver/linear/src/algebra/",
+            "solver/linear/src/multifrontal/",
+            "solver/solid/src/solid/cholesky.rs",
+        ],
+    ),
     ("pulp", &["solver/flow/src/flow/", "solver/linear/src/multifrontal/"]),
     ("metis_sys", &["solver/linear/src/multifrontal/ordering/metis.rs"]),
     ("spade", &["mesh/src/planar/generate/"]),

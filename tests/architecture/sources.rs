@@ -38,8 +38,14 @@ pub const CRATES: [&str; 7] = [
 ];
 
 /// Folders of tests beside the sources of crates.
-pub const TESTS: [&str; 5] =
-    ["mesh/tests", "solver/case/tests", "solver/core/tests", "solver/tests", "tests"];
+pub const TESTS: [&str; 6] = [
+    "mesh/tests",
+    "solver/case/tests",
+    "solver/core/tests",
+    "solver/solid/tests",
+    "solver/tests",
+    "tests",
+];
 
 /// The source files of all crates, by path relative to the root.
 pub fn all_sources() -> impl Iterator<Item = (String, String)> {

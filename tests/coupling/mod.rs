@@ -4,6 +4,7 @@ mod blow_up;
 mod failure;
 mod free;
 mod loads;
+mod magnets;
 mod mean_flow;
 mod step_errors;
 mod threads;

@@ -138,7 +138,8 @@ const RUNS: [Run<'_>; 15] = [
 /// Convection is there, and strong enough that the matrix is not that of a Stokes flow.
 fn is_oseen(simulation: &Simulation<2>) -> bool {
     let Simulation { problem, .. } = simulation;
-    let cell_reynolds = simulation.cell_crossing().reach * problem.density / problem.viscosity;
+    let cell_reynolds =
+        simulation.cell_crossing().reach * problem.density / problem.viscosity.zero_shear();
     problem.has_convection && cell_reynolds > 1e-3
 }
 

@@ -3,7 +3,7 @@
 use super::tank;
 use alewife_core::run::RunSummary;
 use tests::Study;
-use tests::cases::{PERIODIC_CHANNEL, case, last, run};
+use tests::cases::{PERIODIC_CHANNEL, case, column, last, run};
 
 const ELLIPSE: &str = r#"
 [[body]]
@@ -187,4 +187,36 @@ fn an_imposed_motion_goes_where_it_should() {
     let [x, y, _] = pose(&run(&case(&text)), "disc");
     // 0.2 (1 - cos(2 pi t)) at half a period.
     assert!(x.abs() < 1e-12 && (y - 0.4).abs() < 1e-3, "{x} {y}");
+}
+
+/// Sides travel with the frame: a disc is behind the left one when the disc that leads the frame is far enough ahead of it.
+#[test]
+fn a_body_leaves_a_domain_that_travels_through_the_side_that_comes_to_it() {
+    let text = r#"
+        title = "a disc that is left behind"
+        geometry = "planar"
+        frame = "tug"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.box = { min = [-2.0, -1.0], max = [2.0, 1.0] }
+        boundary = { left = "do-nothing", right = "do-nothing", bottom = "no-slip", top = "no-slip" }
+        mesh = { size = 0.5, surface = 0.15, gap_layers = 1 }
+        time.unsteady = { step = 0.1, end = 2.5, until = { one-leaves = 0.25 } }
+        [[body]]
+        name = "tug"
+        shape.disc.radius = 0.2
+        center = [0.5, 0.0]
+        motion.imposed.velocity = [1.0, 0.0]
+        [[body]]
+        name = "buoy"
+        shape.disc.radius = 0.2
+        center = [-0.8, 0.0]
+        motion = "free"
+    "#;
+    let outcome = run(&case(text));
+    let [tug, buoy] = ["tug.x", "buoy.x"].map(|name| column(&outcome, name));
+    let seen: Vec<f64> = tug.iter().zip(&buoy).map(|(tug, buoy)| buoy - (tug - 0.5)).collect();
+    let (last, before) = (seen[seen.len() - 1], seen[seen.len() - 2]);
+    assert!(last < -1.55 && before > -1.55, "{seen:?}");
+    // In the laboratory it is carried along, away from where that side was
+    assert!(buoy[buoy.len() - 1] > 0.0, "{buoy:?}");
 }

@@ -13,7 +13,6 @@ mod reciprocity;
 mod remesh;
 mod rotation;
 mod scene;
-mod sliders;
 mod walks;
 
 use alewife_core::body::{Inertia, Pose, Twist, Wrench};

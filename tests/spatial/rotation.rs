@@ -1,14 +1,18 @@
 //! Rotations in space, in a fluid too thin to matter: against Euler's equations, integrated here.
 
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
 use alewife_core::body::{Pose, Twist, Wrench};
 use alewife_core::case::Convection;
-use alewife_core::coupling::{Problem, Spring};
+use alewife_core::coupling::{FieldPart, Magnet, MagneticField, Problem, Spring};
+use alewife_core::flow::Viscosity;
 use alewife_core::run::simulate;
 use alewife_core::step::MeshPath;
 use alewife_core::time::Bdf;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
 use tests::cases::{case, column, last};
-use tests::{Stepping, Study, two_tetrahedra};
+use tests::{Stepping, Study, figure, two_tetrahedra};
 
 /// Density and viscosity of the fluid against those of the body, about 1.
 const THIN: f64 = 1e-9;
@@ -85,7 +89,7 @@ impl Top<'_> {
     fn steps(&self, problem: &mut Problem<3>, start: &Turning, step: f64, n: usize) -> Vec<Turn> {
         let mesh = two_tetrahedra();
         problem.density = THIN;
-        problem.viscosity = THIN;
+        problem.viscosity = Viscosity::Newtonian(THIN);
         let center = problem.bodies[0].pose.center;
         problem.bodies[0].inertia.tensor = self.inertia;
         problem.bodies[0].pose = Pose::spatial(center, start.turn);
@@ -339,4 +343,57 @@ fn the_rate_of_a_free_tops_spin_is_that_of_eulers_equations_to_second_order() {
         steps.iter().map(off).fold(0.0, f64::max)
     })
     .assert_order("free top, rate of its spin", 2.0, 0.3);
+}
+
+/// A magnet in a field about which it does not just swing, of m B = 3 (rad/s)^2 kg m2.
+#[test]
+fn a_magnet_in_a_field_turns_to_second_order() {
+    let (mut problem, inertia) = problem();
+    let (moment, field) = (Vector3::new(0.5, -1.0, 0.3), Vector3::new(1.5, 1.0, -1.8));
+    let uniform = FieldPart::Uniform(Box::new(move |_| field));
+    problem.bodies[0].magnet =
+        Some(Magnet { moment, field: Arc::new(MagneticField { parts: vec![uniform] }) });
+    let torque = |turn: &UnitQuaternion<f64>| moment.cross(&(turn.inverse() * field));
+    Top { inertia, torque: &torque }.assert_second_order("magnet", problem);
+}
+
+/// A sphere in a sphere follows a field that turns about an oblique axis, and lags behind it.
+#[test]
+fn a_magnetic_sphere_follows_a_field_in_space() {
+    let drag = 8.0 * PI / (1.0 - 0.125);
+    let text = format!(
+        r#"
+        title = "a magnetic sphere in a sphere"
+        geometry = "spatial"
+        fluid = {{ model = "stokes", viscosity = 1.0 }}
+        domain.sphere.radius = 2.0
+        boundary.wall = "no-slip"
+        mesh = {{ size = 0.8, surface = 0.4, gap_layers = 2 }}
+        time.unsteady = {{ step = 0.4, end = 4.8 }}
+        field.magnetic.rotating = {{ strength = 1.0, frequency = {frequency:e}, axis = [2.0, 3.0, 6.0], phase = 0.1 }}
+        [[body]]
+        name = "sphere"
+        shape.sphere.radius = 1.0
+        center = [0.0, 0.0, 0.0]
+        motion = "free"
+        locked = ["x", "y", "z"]
+        magnetic_moment = [{moment}]
+        "#,
+        // Where a field about this axis points to at a phase of zero
+        moment = [15.0, -2.0, -4.0]
+            .map(|part: f64| format!("{:e}", part / 245f64.sqrt() * drag))
+            .join(", "),
+        frequency = 0.6 / TAU,
+    );
+    let outcome = simulate::<3>(&case(&text), &mut []).expect("the case runs");
+    let spin =
+        ["x", "y", "z"].map(|axis| last(&outcome, &format!("sphere.angular_velocity.{axis}")));
+    let off = (Vector3::from(spin) - Vector3::new(2.0, 3.0, 6.0) * (0.6 / 7.0)).norm() / 0.6;
+    assert!(off < 5e-3, "{spin:?}");
+    let lag = last(&outcome, "sphere.magnetic_lag");
+    figure!((lag.sin() / 0.6 - 1.0).abs(), "lag of a sphere");
+    assert!((lag.sin() / 0.6 - 1.0).abs() < 5e-3, "{lag}");
+    let [power, lost] =
+        ["sphere.magnetic_power", "flow.dissipation"].map(|what| last(&outcome, what));
+    assert!((power / lost - 1.0).abs() < 1e-4, "{power} {lost}");
 }

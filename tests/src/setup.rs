@@ -2,6 +2,7 @@
 
 use alewife_core::body::Pose;
 use alewife_core::coupling::{Problem, RigidBody, Side, VelocityProfile};
+use alewife_core::flow::Viscosity;
 use alewife_core::space::Metric;
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 
@@ -46,7 +47,7 @@ pub fn fluid_only<const D: usize>(
     Problem {
         metric,
         density,
-        viscosity,
+        viscosity: Viscosity::Newtonian(viscosity),
         has_inertia: density > 0.0,
         has_convection: density > 0.0,
         sides,

@@ -87,7 +87,7 @@ pub fn one_system_from_rest<const D: usize>(
     };
     let history = vec![Point::<D>::zeros(); mesh.n_nodes()];
     let terms = FlowTerms {
-        viscosity: problem.viscosity,
+        viscosity: problem.viscosity_at(&[]),
         density: problem.density,
         rate,
         history: &history,

@@ -41,7 +41,10 @@ fn a_sphere_may_be_anywhere_in_a_periodic_box() {
             let bodies = [sphere("s", 0.3, at(along(0, x), along(1, y), along(2, z)))];
             let mesh = check(&unit_box(periodic), &bodies, &sizing(0.08, 0.2));
             assert!((mesh.measure() / volume - 1.0).abs() < 3e-5, "{} {volume}", mesh.measure());
-            assert_eq!(mesh, check(&unit_box(periodic), &bodies, &sizing(0.08, 0.2)));
+            if periodic == [true; 3] && x == 0.5 {
+                // Across a corner, the same again
+                assert_eq!(mesh, check(&unit_box(periodic), &bodies, &sizing(0.08, 0.2)));
+            }
         }
     }
 }
@@ -131,9 +134,8 @@ fn narrow_gaps_to_images_are_meshed() {
     }
 }
 
-#[test]
-fn random_bodies_in_periodic_boxes_give_good_meshes() {
-    for seed in 0_u32..16 {
+fn check_random_bodies(seeds: std::ops::Range<u32>) {
+    for seed in seeds {
         let part = |k: f64| (0.618_034 * k * f64::from(seed + 1)).fract();
         let periodic = [[true; 3], [true, true, false], [false, true, false]][seed as usize % 3];
         let max = Point::<3>::new(1.0 + part(3.0), 1.0 + 2.0 * part(5.0), 1.0);
@@ -152,6 +154,17 @@ fn random_bodies_in_periodic_boxes_give_good_meshes() {
     }
 }
 
+#[test]
+fn random_bodies_in_periodic_boxes_give_good_meshes() {
+    check_random_bodies(0..6);
+}
+
+#[test]
+#[ignore = "long: two minutes; small: random_bodies_in_periodic_boxes_give_good_meshes"]
+fn many_random_bodies_in_periodic_boxes_give_good_meshes() {
+    check_random_bodies(6..64);
+}
+
 fn check_crowds(seeds: std::ops::Range<u64>) {
     let mut failed = Vec::new();
     for seed in seeds {
@@ -167,11 +180,12 @@ fn check_crowds(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn crowds_anywhere_in_periodic_boxes_give_good_meshes() {
-    check_crowds(0..4);
+    check_crowds(0..2);
 }
 
 #[test]
 #[ignore = "long: half an hour; small: crowds_anywhere_in_periodic_boxes_give_good_meshes"]
 fn many_crowds_in_periodic_boxes_give_good_meshes() {
+    check_crowds(2..4);
     check_crowds(1000..1500);
 }

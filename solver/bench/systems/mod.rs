@@ -81,7 +81,7 @@ impl TimeStep {
         let sides = problem.do_nothing_sides();
         let assembly =
             Assembly::new(&mesh, system.layout, &constraints, problem.metric, &sides, None);
-        let maps = assembly.maps(&constraints);
+        let maps = assembly.maps(&constraints, &[]);
         let (peak, height) = (1.5, 0.41);
         let parabola = |place: &Point<2>| {
             let s = place[1] / height;
@@ -109,7 +109,7 @@ impl TimeStep {
 
     fn terms(&self) -> FlowTerms<'_, 2> {
         FlowTerms {
-            viscosity: self.problem.viscosity,
+            viscosity: self.problem.viscosity_at(&[]),
             density: self.problem.density,
             rate: self.rate,
             history: &self.history,

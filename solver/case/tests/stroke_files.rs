@@ -69,3 +69,31 @@ fn the_values_of_a_file_become_part_of_the_case() {
         assert!((slopes[0] - slopes[1]).abs() < 1e-9, "{slopes:?}");
     }
 }
+
+#[test]
+fn a_field_follows_a_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("field.toml");
+    fs::write(directory.path().join("log.csv"), "t,b\n0,0.0\n0.5,2.0\n1,1.0\n").unwrap();
+    let text = r#"
+title = "a magnet"
+geometry = "planar"
+fluid = { model = "stokes", viscosity = 1.0 }
+domain.disc.radius = 5.0
+boundary.wall = "no-slip"
+mesh = { size = 0.5 }
+time.unsteady = { step = 0.02, end = 1.0 }
+field.magnetic.components = [{ file = { path = "log.csv", time = "t", column = "b" } }, { constant = 1.0 }]
+[[body]]
+name = "disc"
+shape.disc.radius = 1.0
+center = [0.0, 0.0]
+motion = "free"
+magnetic_moment = [1.0, 0.0]
+"#;
+    fs::write(&path, text).unwrap();
+    let case = read(&path, &[]);
+    let field = case.magnetic_field().unwrap();
+    assert_eq!(field.components[0].at(0.5)[0], 2.0);
+    assert!(case.problem_keys().unwrap().contains_key("field.magnetic.components.0.cubic"));
+}

@@ -1,6 +1,6 @@
 //! `Structure`: a body of any number of velocities, as the equations of motion ask for it.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 /// An elastic body with coordinates q (n) and velocities v = dq/dt, which obeys
 ///
@@ -37,6 +37,58 @@ pub trait Structure: Send + Sync {
     fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64;
 }
 
+/// A structure with a surface, whose material points are told by their places at rest (m).
+///
+/// Places and velocities are seen from a frame that stays where the body is put at the start. Which coordinates a
+/// point moves with does not depend on where they are.
+pub trait Flexible: Structure + std::fmt::Debug {
+    /// Coordinates (n) at time zero.
+    fn initial(&self) -> DVector<f64>;
+
+    /// Coordinates that are given at a time (s), always the same ones, ascending: where the body is clamped.
+    fn held(&self, time: f64) -> Vec<Held>;
+
+    /// Where the point at a place at rest (m) is.
+    fn place(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vector3<f64>;
+
+    /// The velocity there, as a sum of weights times velocities of the structure.
+    fn weights(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vec<Weight>;
+
+    /// The centre of the body, as a sum of weights times coordinates.
+    fn center_weights(&self) -> Vec<Weight>;
+
+    /// How far the centre has come since time zero (m).
+    fn way_of_center(&self, coordinates: &DVector<f64>) -> Vector3<f64> {
+        weighted(&self.center_weights(), &(coordinates - self.initial()))
+    }
+}
+
+/// A coordinate that is given, and its velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Held {
+    /// Which coordinate.
+    pub coordinate: usize,
+    /// Its value.
+    pub value: f64,
+    /// Its velocity (1/s).
+    pub rate: f64,
+}
+
+/// What a coordinate counts in a place, or its velocity in a velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weight {
+    /// Which coordinate.
+    pub coordinate: usize,
+    /// Along x, y and z.
+    pub weight: Vector3<f64>,
+}
+
+/// The sum of weights times values, one for each coordinate.
+#[must_use]
+pub fn weighted(weights: &[Weight], values: &DVector<f64>) -> Vector3<f64> {
+    weights.iter().map(|Weight { coordinate, weight }| weight * values[*coordinate]).sum()
+}
+
 /// Derivatives of the inner forces (n x n each).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tangents {
@@ -44,4 +96,24 @@ pub struct Tangents {
     pub stiffness: DMatrix<f64>,
     /// By velocities: the damping C.
     pub damping: DMatrix<f64>,
+}
+
+/// An outer load Q, such as weight or drag, which may depend on the motion of the structure.
+pub trait Load: Send + Sync {
+    /// The load Q (n) at a time (s).
+    fn load(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> DVector<f64>;
+
+    /// How the load depends on coordinates and on velocities, at a time (s): its derivatives in place of those
+    /// of inner forces.
+    fn tangents(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> Tangents;
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::case::{
     BoundaryCondition, Case, CaseFile, DomainSpec, FlowModel, GaitSpec, Geometry, Joint, JointKind,
     MeanFlowSpec, Model, Motion, Orientation, ShapeSpec, Stroke, SwimmerModel, TimeSettings,
-    geometry_name, printable, significant,
+    ViscositySpec, geometry_name, printable, significant,
 };
 
 /// A text that is meant to be one line, as it may be shown on a terminal.
@@ -88,7 +88,11 @@ fn fluid(case: &Case) -> String {
     } else {
         String::new()
     };
-    format!("{model}, viscosity {}{density}", significant(fluid.viscosity))
+    let viscosity = match &fluid.viscosity {
+        ViscositySpec::Newtonian(viscosity) => significant(*viscosity),
+        ViscositySpec::Law(law) => format!("by the law `{}`", law.name()),
+    };
+    format!("{model}, viscosity {viscosity}{density}")
 }
 
 fn domain(case: &Case) -> String {

@@ -19,12 +19,12 @@ pub struct Settings {
 /// Reads a case and refuses it if it is wrong; warnings are reported and let through.
 pub fn read_case(argument: &str, settings: &[String]) -> Result<CaseFile, Failure> {
     let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
-    tell(&warnings);
+    print_warnings(&warnings);
     Ok(file)
 }
 
 /// Prints what is odd in a case.
-pub fn tell(warnings: &[Diagnostic]) {
+pub fn print_warnings(warnings: &[Diagnostic]) {
     if !warnings.is_empty() {
         complain(&style::diagnostics(warnings));
     }

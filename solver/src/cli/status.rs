@@ -26,7 +26,7 @@ struct Progress {
     status: Status,
     /// Part of the way to the end.
     part: Option<f64>,
-    /// Wall-clock seconds that are left, if it goes on as before.
+    /// Wall-clock seconds that are left, if it continues as before.
     left: Option<f64>,
     /// Whether no process writes to it any more, though it has not ended.
     is_killed: bool,
@@ -36,7 +36,7 @@ struct Progress {
     legs: Vec<Leg>,
 }
 
-/// Tells how far runs are.
+/// Reports how far runs are.
 pub fn status(options: &Options) -> Result<Exit, Failure> {
     let mut all = Vec::new();
     for directory in &options.directories {
@@ -125,13 +125,13 @@ impl Progress {
             None => say("  no checkpoint"),
         }
         for (index, leg) in self.legs.iter().enumerate() {
-            say(&format!("  leg {}: {}", index + 1, told(leg)));
+            say(&format!("  leg {}: {}", index + 1, in_a_line(leg)));
         }
     }
 }
 
 /// What a process did of a run, in a line.
-fn told(leg: &Leg) -> String {
+fn in_a_line(leg: &Leg) -> String {
     let Leg { from, to, ended_at, end, origin } = leg;
     let until = |text: Option<String>| text.map_or(String::new(), |text| format!(" to {text}"));
     let threads = if origin.threads == 1 { "thread" } else { "threads" };

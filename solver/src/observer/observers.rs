@@ -17,7 +17,7 @@ pub struct Shown {
     pub live: Option<LiveServer>,
 }
 
-/// All observers of a run in `directory`, which goes on after a `history` if there is one. What states take to write is told in `times`.
+/// All observers of a run in `directory`, which continues after a `history` if there is one. What states take to write is reported in `times`.
 ///
 /// Make them before the mesh is generated: `status.json` shows the run from then on, and they are
 /// notified if the simulation cannot be built.

@@ -369,10 +369,10 @@ fn a_run_that_resumes_goes_on_in_its_files() {
         let read = |place: &Path| std::fs::read_to_string(place.join(file)).unwrap();
         assert_eq!(read(whole.path()), read(halves.path()), "{file}");
     }
-    let told = |place: &Path| {
+    let reported = |place: &Path| {
         let mut found = messages(&std::fs::read(place.join("run.mcap")).unwrap());
         found.all.retain(|message| message.topic != "/log");
         found
     };
-    assert_eq!(told(whole.path()), told(halves.path()));
+    assert_eq!(reported(whole.path()), reported(halves.path()));
 }

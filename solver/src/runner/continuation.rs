@@ -12,7 +12,7 @@ use crate::observer::{Checkpoint, History, RunState, Status, checkpoints, latest
 
 /// Tables of a case that change nothing of what is computed.
 const IRRELEVANT: [&str; 5] = ["title", "description", "output", "reference", "variant"];
-/// Keys that do not either: how long a run goes on, and where a mesh lies that is known by its checksum.
+/// Keys that do not either: how long a run continues, and where a mesh lies that is known by its checksum.
 const IRRELEVANT_KEYS: [&str; 2] = ["time.unsteady.end", "domain.mesh.file"];
 /// Restarts at one and the same step after which a run is not restarted again.
 const MOST_RESTARTS: usize = 3;
@@ -167,7 +167,9 @@ fn check_same<const D: usize>(out: &Path, case: &Case) -> Result<(), Failure> {
         .is_ok_and(|found| found.is_some_and(|found| found.state.check_case(case).is_ok()));
     let out = out.display();
     let resume = if goes_on {
-        format!(", --overwrite it, or --resume {out} to go on from its state with these settings")
+        format!(
+            ", --overwrite it, or --resume {out} to continue from its state with these settings"
+        )
     } else {
         ", or --overwrite it".to_owned()
     };

@@ -30,7 +30,7 @@ pub struct Resumed<const D: usize> {
     pub state: SavedState<D>,
     /// What was written up to there, if the state lies in a run.
     pub history: Option<History>,
-    /// Whether the run goes on in its own directory.
+    /// Whether the run continues in its own directory.
     pub is_in_place: bool,
     /// Where the state lies.
     pub from: PathBuf,

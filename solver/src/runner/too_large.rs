@@ -37,17 +37,17 @@ mod tests {
 
     #[test]
     fn the_key_that_makes_a_mesh_large_is_pointed_at() {
-        let told = |settings: &[&str]| {
+        let reported = |settings: &[&str]| {
             let settings: Vec<String> = settings.iter().map(|one| (*one).to_owned()).collect();
             let file = Case::read("three-disc-2d", &settings).unwrap();
             let error = RunError::TooLarge { n_dofs: 10, needed: 37.0, available: 8.0 };
             too_large(&file, error).message
         };
-        let growth = told(&["mesh.growth=0.01"]);
+        let growth = reported(&["mesh.growth=0.01"]);
         assert!(growth.contains("look at is `mesh.growth` = 0.01"), "{growth}");
         assert!(growth.contains("--> --set:1:") && growth.contains("37 GB"), "{growth}");
-        let both = told(&["mesh.growth=0.01", "mesh.scale=0.1"]);
+        let both = reported(&["mesh.growth=0.01", "mesh.scale=0.1"]);
         assert!(both.contains("`mesh.scale` = 0.1"), "{both}");
-        assert!(told(&[]).contains("`mesh.size` = "), "{}", told(&[]));
+        assert!(reported(&[]).contains("`mesh.size` = "), "{}", reported(&[]));
     }
 }

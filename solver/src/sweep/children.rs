@@ -121,7 +121,7 @@ impl Shared {
 }
 
 /// Runs points as processes, `jobs` of them at once, until all are over or `must_stop` says so; ends
-/// are told as they come. `launch` says what to do with a point when its turn comes.
+/// are reported as they come. `launch` says what to do with a point when its turn comes.
 pub fn run_children(
     points: Vec<usize>,
     jobs: usize,
@@ -157,11 +157,11 @@ pub fn run_children(
 /// Takes one point after the other.
 fn work(shared: &Shared, launch: &(dyn Fn(usize) -> Launch + Sync), sender: &Sender<Ended>) {
     // Nobody listens any more only when the sweep is over
-    let tell = |index, ending| drop(sender.send(Ended { index, ending }));
+    let report = |index, ending| drop(sender.send(Ended { index, ending }));
     while let Some(index) = shared.next() {
         match launch(index) {
-            Launch::IsDone => tell(index, Ending::Finished),
-            Launch::HasFailed(failure) => tell(index, Ending::Failed(failure)),
+            Launch::IsDone => report(index, Ending::Finished),
+            Launch::HasFailed(failure) => report(index, Ending::Failed(failure)),
             Launch::Busy => {
                 shared.again(index);
                 thread::sleep(LEFT_ALONE);
@@ -170,19 +170,19 @@ fn work(shared: &Shared, launch: &(dyn Fn(usize) -> Launch + Sync), sender: &Sen
             Launch::Start(mut command) => match shared.start(index, &mut command) {
                 Ok(None) => {}
                 Ok(Some(child)) => match wait(shared, index, child) {
-                    ChildEnd::Of(ending) => tell(index, ending),
+                    ChildEnd::Of(ending) => report(index, ending),
                     ChildEnd::InUse => {
                         shared.again(index);
                         thread::sleep(LEFT_ALONE);
                     }
                     // It continues from its latest checkpoint
                     ChildEnd::Killed(_) if shared.survives_kill(index) => shared.again(index),
-                    ChildEnd::Killed(failure) => tell(index, Ending::Failed(failure)),
+                    ChildEnd::Killed(failure) => report(index, Ending::Failed(failure)),
                 },
                 Err(error) => {
                     let reason = format!("its process could not be started: {error}");
                     let failure = PointFailure::new(None, reason);
-                    tell(index, Ending::Failed(failure));
+                    report(index, Ending::Failed(failure));
                 }
             },
         }

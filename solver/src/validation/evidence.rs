@@ -133,9 +133,9 @@ mod tests {
     #[test]
     fn conditions_and_earlier_values_are_no_evidence() {
         for kind in ReferenceKind::ALL {
-            let told = row(1.0, |row| row.reference.expected.kind = kind).evidence();
+            let reported = row(1.0, |row| row.reference.expected.kind = kind).evidence();
             let is_evidence = !matches!(kind, ReferenceKind::Property | ReferenceKind::Regression);
-            assert_eq!(told.is_some(), is_evidence, "{kind:?}");
+            assert_eq!(reported.is_some(), is_evidence, "{kind:?}");
         }
         let failed = row(1.0, |row| row.computed = Err("it diverged".to_owned()));
         assert_eq!((failed.evidence(), failed.evidence_in_words()), (None, "-".to_owned()));

@@ -139,7 +139,7 @@ impl ReportPage {
         page
     }
 
-    /// A sentence on how good the rule of the uncertainties is, where exact values tell.
+    /// A sentence on how good the rule of the uncertainties is, where exact values are known.
     fn coverage(&self) -> Option<String> {
         let lines = self.sections.values().flat_map(|section| section.text.lines());
         let total = lines.filter_map(Coverage::read).fold(Coverage::default(), |sum, one| {
@@ -230,9 +230,9 @@ mod tests {
         let mut again = ReportPage::read(&text).unwrap();
         assert_eq!(again, page);
         assert_eq!(again.text(&[]), text);
-        let told = again.text(&["a", "c", "d"]);
-        assert!(told.contains("\nNot on this page yet: `c`, `d`.\n"), "{told}");
-        assert_eq!(ReportPage::read(&told).unwrap(), page);
+        let reported = again.text(&["a", "c", "d"]);
+        assert!(reported.contains("\nNot on this page yet: `c`, `d`.\n"), "{reported}");
+        assert_eq!(ReportPage::read(&reported).unwrap(), page);
         again.set(&report("a", [1.0, 1.0]));
         assert!(again.text(&[]).contains("4 of 4 values within their band"));
         assert!(again.text(&[]).ends_with(text.split("## b\n").nth(1).unwrap()));
@@ -292,8 +292,8 @@ mod tests {
         }
         let mut page = ReportPage::default();
         page.set(&case);
-        let told = "Of 2 values whose exact value is known, 1 differ from it by less";
-        assert!(page.text(&[]).contains(told), "{}", page.text(&[]));
+        let reported = "Of 2 values whose exact value is known, 1 differ from it by less";
+        assert!(page.text(&[]).contains(reported), "{}", page.text(&[]));
         case.members[0].comparisons[0].numerical = Some(Err("no | period".to_owned()));
         page.set(&case);
         let reason = "No uncertainty: v, cylinder.drag_coefficient: no \\| period.";

@@ -163,7 +163,7 @@ pub(super) fn section(case: &CaseReport) -> String {
         }
     }
     let values: Vec<&Comparison> = members.iter().flat_map(|member| &member.comparisons).collect();
-    text += &coverage(&values).map_or(String::new(), |told| format!("\n{told}\n"));
+    text += &coverage(&values).map_or(String::new(), |reported| format!("\n{reported}\n"));
     text += &sources(&values);
     text += &reasons(members);
     text
@@ -279,12 +279,12 @@ fn reasons(members: &[MemberReport]) -> String {
 /// Why values are only consistent with their references, a line for each cause.
 fn causes(members: &[MemberReport]) -> Vec<String> {
     let values = members.iter().flat_map(|member| &member.comparisons);
-    let told = values.filter_map(|value| {
+    let reported = values.filter_map(|value| {
         let cause = value.reference.expected.cause.as_ref()?;
         let is_open = matches!(value.evidence(), Some(Evidence::Consistent(_)));
         is_open.then(|| format!("Consistent, not confirmed: {cause}."))
     });
-    each_once(told)
+    each_once(reported)
 }
 
 /// The values that are known to be outside, as lines of a list with the reason of each.

@@ -97,7 +97,7 @@ impl Refinement {
     /// Between the run of a case and its companion, by their numbers of cells and steps.
     ///
     /// # Errors
-    /// Why they tell nothing: one of them is hardly coarser.
+    /// Why they show nothing: one of them is hardly coarser.
     pub fn between(case: &Case, fine: RunSize, coarse: RunSize) -> Result<Self, String> {
         let quotient = |fine: usize, coarse: usize| fine as f64 / coarse.max(1) as f64;
         let dimensions = case.geometry.dimensions() as f64;
@@ -207,14 +207,14 @@ mod tests {
         let steady = case("dfg-2d-1", &[]);
         let of = |fine, coarse| Refinement::between(&steady, fine, coarse);
         assert_eq!(of(size(400, 0), size(100, 0)).unwrap(), Refinement { ratio: 2.0, order: 2.0 });
-        let told = of(size(110, 0), size(100, 0)).unwrap_err();
-        assert_eq!(told, "its cells are only 1.05 times as long");
+        let reported = of(size(110, 0), size(100, 0)).unwrap_err();
+        assert_eq!(reported, "its cells are only 1.05 times as long");
         let unsteady = case("dfg-2d-2", &[]);
         let of = |fine, coarse| Refinement::between(&unsteady, fine, coarse);
         assert_eq!(of(size(400, 90), size(100, 60)).unwrap().ratio, 1.5);
         assert_eq!(of(size(144, 90), size(100, 30)).unwrap().ratio, 1.2);
-        let told = of(size(400, 90), size(100, 90)).unwrap_err();
-        assert_eq!(told, "its steps are only 1.00 times as long");
+        let reported = of(size(400, 90), size(100, 90)).unwrap_err();
+        assert_eq!(reported, "its steps are only 1.00 times as long");
         let euler = case("dfg-2d-2", &["time.unsteady.scheme=\"bdf1\""]);
         let of_euler = Refinement::between(&euler, size(400, 80), size(100, 40));
         assert_eq!(of_euler.unwrap(), Refinement { ratio: 2.0, order: 1.0 });
@@ -254,11 +254,11 @@ mod tests {
             set_uncertainties(&mut values, &[value(coarse)], &refinement);
             values[0].clone()
         };
-        let told = |value: &Comparison| value.numerical_uncertainty().unwrap();
-        assert!((told(&of(5.5, 5.5)) / (LEAST_SHARE * 5.5) - 1.0).abs() < 1e-12);
+        let reported = |value: &Comparison| value.numerical_uncertainty().unwrap();
+        assert!((reported(&of(5.5, 5.5)) / (LEAST_SHARE * 5.5) - 1.0).abs() < 1e-12);
         let mut values = [of(5.5, 5.5), of(5.5, 5.4), of(5.5, 5.3)];
         raise_coincidences(values.iter_mut());
-        let raised = values.each_ref().map(told);
+        let raised = values.each_ref().map(reported);
         assert!((raised[0] - 0.3).abs() < 1e-9 && (raised[1] - 0.3).abs() < 1e-9, "{raised:?}");
         assert!((raised[2] - 0.6).abs() < 1e-9, "{raised:?}");
         // What is not known stays so, and other quantities are not asked
@@ -267,7 +267,7 @@ mod tests {
         let mut values = [value(5.5), other, of(5.5, 5.4)];
         raise_coincidences(values.iter_mut());
         assert_eq!(values[0].numerical, None);
-        assert!(told(&values[1]) < 2e-4, "{:?}", values[1].numerical);
+        assert!(reported(&values[1]) < 2e-4, "{:?}", values[1].numerical);
         assert_eq!(median(vec![]), None);
     }
 
@@ -282,14 +282,14 @@ mod tests {
     fn a_value_without_a_companion_says_why() {
         let reference: Reference = case("dfg-2d-1", &[]).reference.remove(0);
         let value = |computed| judge("c", &reference, computed, 1, 0.0);
-        let told = |values: &[Comparison]| values[0].numerical.clone();
+        let reported = |values: &[Comparison]| values[0].numerical.clone();
         let mut values = [value(Ok(5.5))];
         let refinement = Ok(Refinement { ratio: 2.0, order: 1.0 });
         set_uncertainties(&mut values, &[value(Ok(5.4))], &refinement);
-        assert!((told(&values).unwrap().unwrap() - 0.3).abs() < 1e-12);
+        assert!((reported(&values).unwrap().unwrap() - 0.3).abs() < 1e-12);
         set_uncertainties(&mut values, &[value(Err("no period".to_owned()))], &refinement);
-        assert_eq!(told(&values), Some(Err("no period".to_owned())));
+        assert_eq!(reported(&values), Some(Err("no period".to_owned())));
         set_uncertainties(&mut values, &[], &Err("no mesh".to_owned()));
-        assert_eq!(told(&values), Some(Err("no mesh".to_owned())));
+        assert_eq!(reported(&values), Some(Err("no mesh".to_owned())));
     }
 }

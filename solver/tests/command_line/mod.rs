@@ -11,8 +11,6 @@ mod plotting;
 mod shell;
 mod skin;
 mod stopping;
-mod sweep_kills;
-mod sweep_races;
 mod sweeps;
 mod validating;
 mod verifying;

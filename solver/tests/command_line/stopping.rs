@@ -123,7 +123,7 @@ fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
     let refused = with(arguments("fall"), &step);
     assert_eq!(refused.status.code(), Some(2));
     let told = String::from_utf8_lossy(&refused.stderr);
-    assert!(told.contains("or --resume fall to go on from its state"), "{told}");
+    assert!(told.contains("or --resume fall to continue from its state"), "{told}");
     assert_eq!(read("fall/series.csv"), before);
 
     // The directory of a run stands for its state

@@ -8,6 +8,7 @@ mod hints;
 mod keys;
 mod reading;
 mod references;
+mod shear;
 mod space;
 mod swimmers;
 mod time;

@@ -3,7 +3,9 @@
 use super::Model;
 use super::commands::Commands;
 use crate::spec::command::Command;
-use crate::{Body, BoundaryCondition, GaitSpec, JointKind, Motion, Stroke, TimeFunction};
+use crate::{
+    Body, BoundaryCondition, GaitSpec, JointKind, MagneticSpec, Motion, Stroke, TimeFunction,
+};
 
 /// A command of a body or a side: what it is called there, the key below that of its owner, and the command.
 type Found<'a> = (String, String, &'a mut Command);
@@ -56,6 +58,10 @@ impl Model {
         if let Some(command) = of_factor(flow) {
             commands.connect("flow.factor".to_owned(), "flow.factor".to_owned(), command);
         }
+        let magnetic = self.case.field.as_mut().and_then(|field| field.magnetic.as_mut());
+        for (what, below, command) in magnetic.map(of_magnetic).unwrap_or_default() {
+            commands.connect(format!("field.{what}"), format!("field.magnetic.{below}"), command);
+        }
         self.commands = commands;
     }
 }
@@ -98,6 +104,21 @@ fn of_side(condition: &mut BoundaryCondition) -> Option<&mut TimeFunction> {
         | BoundaryCondition::WavingSheet { .. }
         | BoundaryCondition::Periodic(_) => None,
     }
+}
+
+/// Commands of a magnetic field: of its components along the coordinates, and of factors.
+fn of_magnetic(magnetic: &mut MagneticSpec) -> Vec<Found<'_>> {
+    let components = magnetic.components.iter_mut().enumerate().map(|(axis, stroke)| {
+        let name = ["x", "y", "z"][axis.min(2)].to_owned();
+        (name, format!("components.{axis}"), Some(stroke))
+    });
+    let linear = magnetic.linear.iter_mut();
+    let linear = linear.map(|one| ("linear".to_owned(), "linear".to_owned(), one.factor.as_mut()));
+    let dipoles = magnetic.dipoles.iter_mut().enumerate().map(|(nth, one)| {
+        (format!("dipole.{}", nth + 1), format!("dipoles.{nth}"), one.factor.as_mut())
+    });
+    let strokes = components.chain(linear).chain(dipoles);
+    strokes.filter_map(|(name, key, stroke)| Some((name, key, of_stroke(stroke)?))).collect()
 }
 
 /// Commands of a body: of its load, its motion and its gait.

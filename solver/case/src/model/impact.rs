@@ -61,7 +61,7 @@ fn impact(case: &Case, body: &Body) -> Option<Impact> {
         body: body.name.clone(),
         speed,
         energy: 0.5 * (mass + displaced) * speed * speed,
-        stokes_number: sphere * speed / (6.0 * PI * case.fluid.viscosity * radius * radius),
+        stokes_number: sphere * speed / (6.0 * PI * case.reference_viscosity() * radius * radius),
     })
 }
 

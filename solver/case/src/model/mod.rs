@@ -238,6 +238,7 @@ impl Model {
                 load_factor: None,
                 load_frame: LoadFrame::default(),
                 spring: None,
+                magnetic_moment: part.moment_in(swimmer),
                 size: swimmer.size,
             });
             self.swimmer_of_bodies.push(index);

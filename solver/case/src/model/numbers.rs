@@ -23,7 +23,7 @@ const WIDEST_COLUMN: usize = 200;
 #[must_use]
 pub fn reynolds(case: &Case) -> Option<f64> {
     let scales = case.scales?;
-    Some(case.fluid.density * scales.velocity * scales.length / case.fluid.viscosity)
+    Some(case.fluid.density * scales.velocity * scales.length / case.reference_viscosity())
 }
 
 /// Density of the first body over that of the fluid.
@@ -78,7 +78,7 @@ fn has_inertia(case: &Case) -> bool {
 }
 
 fn kinematic_viscosity(case: &Case) -> f64 {
-    case.fluid.viscosity / case.fluid.density
+    case.reference_viscosity() / case.fluid.density
 }
 
 fn numbers_of_flow(table: &mut Table, model: &Model) {

@@ -11,7 +11,7 @@ use crate::spec::body::joint::{Joint, JointKind};
 use crate::spec::body::link::{Link, LinkExtent};
 use crate::spec::body::skin::{Layout, NoOutline};
 use crate::spec::body::stroke::Stroke;
-use crate::spec::body::swimmer::{Pivot, SwimmerKind};
+use crate::spec::body::swimmer::{Pivot, SwimmerKind, SwimmerSpec};
 use crate::spec::body::{GaitSpec, ShapeSpec};
 use crate::text::diagnostic::CaseError;
 
@@ -21,8 +21,18 @@ pub struct Part {
     pub gait: Option<GaitSpec>,
     /// Its own density (kg/m3); that of the swimmer if absent.
     pub density: Option<f64>,
+    /// Its own magnetic moment (A m2; A m planar); that of the swimmer if it has none and is the root.
+    pub magnetic_moment: Vec<f64>,
     /// How it is attached to another part; the part all others are attached to is not.
     pub attachment: Option<Attachment>,
+}
+
+impl Part {
+    /// Its magnetic moment in a swimmer (A m2; A m planar).
+    pub fn moment_in(&self, swimmer: &SwimmerSpec) -> Vec<f64> {
+        let is_given = !self.magnetic_moment.is_empty() || self.attachment.is_some();
+        if is_given { &self.magnetic_moment } else { &swimmer.magnetic_moment }.clone()
+    }
 }
 
 /// How a part is attached to another one.
@@ -76,6 +86,7 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
             shape: shape.clone(),
             gait: gait.clone(),
             density: None,
+            magnetic_moment: Vec::new(),
             attachment: None,
         }]),
         SwimmerKind::LinkedSpheres { radii, arms, gaits } => {
@@ -110,6 +121,7 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
                 shape: ShapeSpec::Tube(layout.shape(*skin)),
                 gait: Some(GaitSpec::Joints(layout.gait(*skin, joints, middle(links.len())))),
                 density: None,
+                magnetic_moment: Vec::new(),
                 attachment: None,
             }])
         }
@@ -141,6 +153,7 @@ fn linked_spheres(
         shape: round_shape(*radius, geometry),
         gait: gaits.get(nth).cloned(),
         density: None,
+        magnetic_moment: Vec::new(),
         attachment: attachment(nth),
     };
     radii.iter().enumerate().map(part).collect()
@@ -164,6 +177,7 @@ fn star(
         shape: round_shape(radius, geometry),
         gait: None,
         density: None,
+        magnetic_moment: Vec::new(),
         attachment,
     };
     let mut parts = vec![disc(radius, None)];
@@ -212,6 +226,7 @@ fn chain(
         },
         gait: None,
         density: link.density(),
+        magnetic_moment: link.magnetic_moment().to_vec(),
         attachment: attachment(nth),
     };
     Ok(links.iter().enumerate().map(part).collect())
@@ -335,7 +350,11 @@ mod tests {
     #[test]
     fn pivots_are_beyond_the_ends_of_links_of_any_shape() {
         let points = vec![[0.5, 0.0], [0.0, 0.2], [-0.2, 0.0], [0.0, -0.2]];
-        let kite = ShapedLink { shape: ShapeSpec::Spline { points }, density: Some(3.0) };
+        let kite = ShapedLink {
+            shape: ShapeSpec::Spline { points },
+            density: Some(3.0),
+            magnetic_moment: vec![0.5, 0.0],
+        };
         let kind = SwimmerKind::Chain {
             links: vec![Link::Shaped(kite.clone()), Link::Ellipse([0.4, 0.1]), Link::Shaped(kite)],
             gap: 0.2,
@@ -350,5 +369,7 @@ mod tests {
         assert!((poses[2].center.x + 1.1).abs() < 1e-9, "{}", poses[2].center.x);
         let densities: Vec<Option<f64>> = parts.iter().map(|part| part.density).collect();
         assert_eq!(densities, [Some(3.0), None, Some(3.0)]);
+        let moments: Vec<&[f64]> = parts.iter().map(|part| &*part.magnetic_moment).collect();
+        assert_eq!(moments, [&[0.5, 0.0][..], &[], &[0.5, 0.0]]);
     }
 }

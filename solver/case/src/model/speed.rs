@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::{
-    Body, BoundaryCondition, Case, ContactSpec, GaitSpec, Geometry, Joint, JointKind, Model,
-    Motion, Stroke,
+    Body, BoundaryCondition, Case, ContactSpec, GaitSpec, Geometry, Joint, JointKind, MagneticSpec,
+    Model, Motion, Stroke,
 };
 
 /// Times of a stroke's period at which its rate is looked at.
@@ -29,9 +29,38 @@ impl Model {
                 _ => rate * child.map_or(0.0, |child| 2.0 * child.shape.reach()),
             }
         });
+        let turned = self.bodies.iter().map(|body| self.magnetic_speed(body));
         let scale = case.scales.iter().map(|scales| scales.velocity);
-        let all = sides.chain(flow).chain(bodies).chain(joints).chain(scale);
+        let all = sides.chain(flow).chain(bodies).chain(joints).chain(turned).chain(scale);
         Some(all.fold(0.0, f64::max)).filter(|speed| *speed > 0.0)
+    }
+
+    /// The largest rate at which a field turns a magnetic body in slow flow (rad/s), by the resistance of a disc or sphere
+    /// that is as thin as it; 0 of a body without a moment.
+    #[must_use]
+    pub(crate) fn magnetic_rate(&self, field: &MagneticSpec, body: &Body) -> f64 {
+        let (case, width) = (&self.case, body.shape.half_width());
+        let drag = match case.geometry {
+            Geometry::Planar => 4.0 * PI * case.reference_viscosity() * width.powi(2),
+            Geometry::Axisymmetric | Geometry::Spatial => {
+                8.0 * PI * case.reference_viscosity() * width.powi(3)
+            }
+        };
+        if body.turns() {
+            norm(&body.magnetic_moment) * largest_at(field, &body.center) / drag
+        } else {
+            0.0
+        }
+    }
+
+    /// The order of the speed of a surface that a field turns (m/s).
+    fn magnetic_speed(&self, body: &Body) -> f64 {
+        let Some(field) = self.case.magnetic_field() else { return 0.0 };
+        if body.motion != Motion::Free || self.case.geometry == Geometry::Axisymmetric {
+            return 0.0;
+        }
+        let fastest = field.rotating.as_ref().map_or(f64::INFINITY, |one| TAU * one.frequency);
+        self.magnetic_rate(field, body).min(fastest) * body.shape.reach()
     }
 
     /// The order of the rate at which forces change the length of an arm (m/s): by the resistance of its
@@ -86,6 +115,33 @@ fn top_rate(stroke: &Stroke) -> f64 {
     (0..TIMES).map(|n| stroke.at(time(n))[1].abs()).fold(0.0, f64::max)
 }
 
+/// The largest strength that a field may have in time at a place (T), by the sum of those of its parts.
+fn largest_at(magnetic: &MagneticSpec, place: &[f64]) -> f64 {
+    let most = |stroke: &Stroke| {
+        let [least, most] = stroke.range();
+        // What grows without bound: its value after a unit of time
+        let end = |end: f64| if end.is_finite() { end.abs() } else { stroke.at(1.0)[0].abs() };
+        end(least).max(end(most))
+    };
+    let factor = |factor: &Option<Stroke>| factor.as_ref().map_or(1.0, most);
+    let distance = |from: &[f64]| -> f64 {
+        let origin = from.iter().copied().chain(std::iter::repeat(0.0));
+        norm(&place.iter().zip(origin).map(|(at, from)| at - from).collect::<Vec<_>>())
+    };
+    let components: Vec<f64> = magnetic.components.iter().map(most).collect();
+    let mut sum = norm(&components) + magnetic.rotating.as_ref().map_or(0.0, |one| one.strength);
+    if let Some(linear) = &magnetic.linear {
+        let entries: Vec<f64> = linear.gradient.iter().flatten().copied().collect();
+        sum += norm(&entries) * distance(&linear.center) * factor(&linear.factor);
+    }
+    for dipole in &magnetic.dipoles {
+        let power = if place.len() == 2 { 2 } else { 3 };
+        let field = norm(&dipole.strength) / (TAU * distance(&dipole.position).powi(power));
+        sum += field * factor(&dipole.factor);
+    }
+    sum
+}
+
 /// Length of a vector.
 pub(crate) fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|part| part * part).sum::<f64>().sqrt()
@@ -126,9 +182,9 @@ fn body_speed(case: &Case, body: &Body) -> f64 {
 /// Force per velocity of a body in slow flow, by its reach (N s/m; N s/m2 planar).
 fn resistance(case: &Case, body: &Body) -> f64 {
     match case.geometry {
-        Geometry::Planar => 4.0 * PI * case.fluid.viscosity,
+        Geometry::Planar => 4.0 * PI * case.reference_viscosity(),
         Geometry::Axisymmetric | Geometry::Spatial => {
-            6.0 * PI * case.fluid.viscosity * body.shape.reach()
+            6.0 * PI * case.reference_viscosity() * body.shape.reach()
         }
     }
 }

@@ -5,7 +5,7 @@
 mod row;
 mod table;
 
-use crate::{FlowModel, Geometry, Model, SwimmerModel, TimeSettings};
+use crate::{FlowModel, Geometry, MagneticSpec, Model, SwimmerModel, TimeSettings};
 
 pub use self::row::{Component, Condition, NamedComponent, Quantity, Shape};
 pub use self::table::{BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, SwimmerQuantity};
@@ -44,7 +44,10 @@ pub fn columns(model: &Model) -> Vec<Column> {
     let mut columns = Vec::new();
     for (nth, body) in model.bodies.iter().enumerate() {
         let source = |quantity| Source::Body(nth, quantity);
-        add(&mut columns, &body.name, BodyQuantity::TABLE, &of_case, source);
+        let is_magnet = case.magnetic_field().is_some() && !body.magnetic_moment.is_empty();
+        let known: Vec<Condition> =
+            of_case.iter().copied().chain(Condition::Moment.holding_if(is_magnet)).collect();
+        add(&mut columns, &body.name, BodyQuantity::TABLE, &known, source);
     }
     let joints = model.bodies.iter().enumerate().filter_map(|(index, child)| {
         let joint = model.joint_above(index)?;
@@ -74,6 +77,7 @@ pub fn columns(model: &Model) -> Vec<Column> {
 fn conditions_of_case(model: &Model) -> Vec<Condition> {
     let case = &model.case;
     let is_spatial = case.geometry == Geometry::Spatial;
+    let has_gradient = case.magnetic_field().is_some_and(MagneticSpec::has_gradient);
     let has_convection = case.fluid.model == FlowModel::NavierStokes;
     let conditions = [
         Condition::Planar.holding_if(!is_spatial),
@@ -86,6 +90,7 @@ fn conditions_of_case(model: &Model) -> Vec<Condition> {
         Condition::Convection.holding_if(has_convection),
         Condition::Unsteady.holding_if(matches!(case.time, TimeSettings::Unsteady(_))),
         Condition::MovingMesh.holding_if(model.mesh_moves()),
+        Condition::FieldGradient.holding_if(has_gradient),
     ];
     conditions.into_iter().flatten().collect()
 }

@@ -85,6 +85,10 @@ pub enum Condition {
     Unsteady,
     /// The mesh moves.
     MovingMesh,
+    /// The body has a magnetic moment in a field.
+    Moment,
+    /// The magnetic field differs from place to place.
+    FieldGradient,
 }
 
 impl Condition {
@@ -114,6 +118,8 @@ impl Condition {
             Self::Convection => "`navier-stokes`",
             Self::Unsteady => "unsteady",
             Self::MovingMesh => "a moving mesh",
+            Self::Moment => "[`magnetic_moment`](#field)",
+            Self::FieldGradient => "a [field](#field) of place",
         }
     }
 }

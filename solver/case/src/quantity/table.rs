@@ -66,6 +66,15 @@ quantities! {
             "Sum of the contact forces on the body; not in `force`";
         ContactTorque: rotation("Their torque about the centre of mass, in the laboratory"),
             "contact_torque", "N m (N)", [Contact], "Their torque about the centre of mass";
+        MagneticTorque: rotation("Torque m x B of the magnetic field, in the laboratory; not in `torque`"),
+            "magnetic_torque", "N m (N)", [Moment],
+            "Torque m x B of the magnetic field, counter-clockwise; not in `torque`";
+        MagneticForce: Vector, "magnetic_force", "N (N/m)", [Moment, FieldGradient],
+            "Force grad(m . B) of the magnetic field; not in `force`";
+        MagneticLag: Scalar, "magnetic_lag", "rad", [Moment],
+            "Angle from the magnetic moment to the field, counter-clockwise, within half a turn, in space from 0              to pi; NaN while there is no field";
+        MagneticPower: Scalar, "magnetic_power", "W (W/m)", [Moment],
+            "Work of the magnetic field on the body";
     }
 }
 

@@ -7,8 +7,9 @@ use serde_json::Value;
 use crate::Case;
 
 /// What may differ besides these is how the problem is solved, and what is reported of it.
-const TABLES: [&str; 9] =
-    ["geometry", "frame", "fluid", "flow", "domain", "boundary", "body", "joint", "swimmer"];
+const TABLES: [&str; 10] = [
+    "geometry", "frame", "fluid", "flow", "field", "domain", "boundary", "body", "joint", "swimmer",
+];
 
 impl Case {
     /// Geometry, fluid, boundary conditions, bodies and what moves them: the value of each key, by its
@@ -66,5 +67,7 @@ mod tests {
         let other = keys(&["fluid.viscosity=7.5"]);
         assert_eq!(other["fluid.viscosity"], "7.5");
         assert_eq!(known.iter().filter(|(key, value)| other[*key] != **value).count(), 1);
+        let turned = keys(&["field.magnetic.rotating={ strength = 1.0, frequency = 2.0 }"]);
+        assert_eq!(turned["field.magnetic.rotating.frequency"], "2.0");
     }
 }

@@ -8,7 +8,7 @@ use super::Findings;
 use crate::read::schema::{alternatives, fits, fitting, referred, whole};
 
 /// What to write in other geometries, by the ends of keys that have no meaning there.
-const INSTEAD: [(&str, &str); 13] = [
+const INSTEAD: [(&str, &str); 15] = [
     (".orientation", "write angle = ... (rad)"),
     (".angle", "write orientation = { turned = { axis = [x, y, z], angle = ... } }"),
     (".rest_orientation", "write rest_angle = ... (rad)"),
@@ -21,6 +21,11 @@ const INSTEAD: [(&str, &str); 13] = [
     (".direction", "write along = [x, y, z], in the frame of the parent"),
     (".hinge.axis", "leave it out: the axis is z"),
     (".bent.axis", "leave it out: the axis is z"),
+    (
+        ".rotating.axis",
+        "leave it out: the axis is z; write clockwise = true for the other way round",
+    ),
+    (".clockwise", "turn the axis round for the other way"),
     (".skin", "leave it out for separate links"),
 ];
 

@@ -11,6 +11,7 @@ mod contact;
 mod declared;
 mod drive;
 mod extremes;
+mod field;
 mod findings;
 mod flow;
 mod general;
@@ -47,6 +48,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     space::check(&mut findings);
     joints::check(&mut findings);
     swimmers::check(&mut findings);
+    field::check(&mut findings);
     contact::check(&mut findings);
     mesh::check(&mut findings);
     time::check(&mut findings);

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Body, BoundaryCondition, ContactSpec, DomainSpec, Fluid, Geometry, Joint, MeanFlowSpec,
-    MeshSettings, Numbers, Output, Probe, Reference, Scales, Statistics, SwimmerSpec, TimeSettings,
-    Units, Variant,
+    Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, Fluid, Geometry, Joint,
+    MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe, Reference, Scales,
+    Statistics, SwimmerSpec, TimeSettings, Units, Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -38,6 +38,9 @@ pub struct Case {
     /// What drives the fluid along periodic directions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow: Option<MeanFlowSpec>,
+    /// What acts on bodies from afar.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub field: Option<FieldSpec>,
     /// The bodies in the fluid, but for those of swimmers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub body: Vec<Body>,
@@ -81,10 +84,24 @@ pub struct Case {
 }
 
 impl Case {
+    /// The magnetic field, if there is one.
+    #[must_use]
+    pub fn magnetic_field(&self) -> Option<&MagneticSpec> {
+        self.field.as_ref()?.magnetic.as_ref()
+    }
+
     /// The first sentence of the description: what the set-up is.
     #[must_use]
     pub fn gist(&self) -> String {
         first_sentence(&self.description)
+    }
+
+    /// The viscosity (Pa s) that numbers of the case are made of: that at rest, or of powers of the rate of shear that at
+    /// the rate of `[scales]`, velocity over length, or at 1/s where there are none.
+    #[must_use]
+    pub fn reference_viscosity(&self) -> f64 {
+        let rate = self.scales.map_or(1.0, |scales| scales.velocity / scales.length);
+        self.fluid.viscosity.reference(rate.abs())
     }
 }
 

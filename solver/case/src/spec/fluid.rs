@@ -1,7 +1,8 @@
 //! `[fluid]`: density, viscosity, gravity and which equations hold.
 
 #[cfg(test)]
-use crate::spec::number::{NonNegative, PerDimension, Positive};
+use crate::spec::number::{NonNegative, PerDimension};
+use crate::spec::viscosity::ViscositySpec;
 use serde::{Deserialize, Serialize};
 
 /// Which equations the fluid obeys.
@@ -24,9 +25,8 @@ pub enum FlowModel {
 pub struct Fluid {
     /// Which equations hold.
     pub model: FlowModel,
-    /// Dynamic viscosity (Pa s).
-    #[cfg_attr(test, schemars(with = "Positive"))]
-    pub viscosity: f64,
+    /// Dynamic viscosity (Pa s), or the law by which it depends on the rate of shear.
+    pub viscosity: ViscositySpec,
     /// Density (kg/m3); needed unless the model is `stokes`.
     #[serde(default)]
     #[cfg_attr(test, schemars(with = "NonNegative"))]

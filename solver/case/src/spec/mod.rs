@@ -3,9 +3,11 @@
 pub(crate) mod body;
 pub(crate) mod case;
 pub(crate) mod command;
+pub(crate) mod comparison;
 pub(crate) mod contact;
 pub(crate) mod domain;
 pub(crate) mod extent;
+pub(crate) mod field;
 pub(crate) mod fluid;
 pub(crate) mod mean_flow;
 pub(crate) mod mesh;
@@ -13,9 +15,7 @@ pub(crate) mod mesh_file;
 #[cfg(test)]
 mod number;
 pub(crate) mod output;
-pub(crate) mod reference;
-pub(crate) mod statistic;
 pub(crate) mod time;
 mod time_function;
-pub(crate) mod uncertainty;
 pub(crate) mod units;
+pub(crate) mod viscosity;

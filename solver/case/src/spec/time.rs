@@ -49,7 +49,7 @@ pub struct Unsteady {
     /// Scheme.
     #[serde(default)]
     pub scheme: Scheme,
-    /// Treatment of the convection.
+    /// Treatment of the convection, and of a viscosity that depends on the rate of shear.
     #[serde(default)]
     pub convection: Convection,
     /// Where the run starts.
@@ -160,7 +160,7 @@ pub enum Scheme {
     Rk3,
 }
 
-/// Treatment of the convection within a step.
+/// Treatment of the convection within a step, and of a viscosity that depends on the rate of shear.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]

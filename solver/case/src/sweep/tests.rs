@@ -97,8 +97,11 @@ fn the_command_line_goes_over_the_grid_of_the_file() {
     assert_eq!(points(&text, &[&set]).len(), 6);
     let fixed = points(&text, &["fluid.viscosity=7.0"]);
     assert_eq!(fixed, [[json!(0), json!(7.0)], [json!(3), json!(7.0)]]);
-    let told = refusal(&text, &["body.0.gait.squirmer.modes=[1.0, 2.0]"]);
-    assert!(told.contains("is set once, and `body.0.gait.squirmer.modes.1` is swept"), "{told}");
+    let reported = refusal(&text, &["body.0.gait.squirmer.modes=[1.0, 2.0]"]);
+    assert!(
+        reported.contains("is set once, and `body.0.gait.squirmer.modes.1` is swept"),
+        "{reported}"
+    );
 }
 
 #[test]
@@ -169,10 +172,10 @@ fn the_case_of_a_point_is_the_case_with_its_values() {
 fn a_sweep_is_no_part_of_a_case_and_not_inherited() {
     let shipped = crate::Case::read("squirmer-alone", &[]).unwrap();
     assert!(shipped.has_sweep && !shipped.case().to_toml().unwrap().contains("sweep"));
-    let told = refusal("", &[]);
+    let reported = refusal("", &[]);
     assert!(
-        told.contains("no key of the case is swept") && told.contains("add a [sweep]"),
-        "{told}"
+        reported.contains("no key of the case is swept") && reported.contains("add a [sweep]"),
+        "{reported}"
     );
 }
 
@@ -225,9 +228,9 @@ fn what_is_wrong_in_a_sweep_is_told_with_its_place_and_what_is_accepted() {
         ),
         ("sweep = 3".into(), "`sweep` is not a table", "with their values"),
     ] {
-        let told = refusal(&text, &[]);
-        assert!(told.contains(message) && told.contains(help), "{text}: {told}");
-        assert!(told.contains("case.toml:"), "{told}");
+        let reported = refusal(&text, &[]);
+        assert!(reported.contains(message) && reported.contains(help), "{text}: {reported}");
+        assert!(reported.contains("case.toml:"), "{reported}");
         // No command takes such a file
         let place = tempfile::tempdir().unwrap();
         let file = place.path().join("case.toml");
@@ -241,18 +244,24 @@ fn what_is_wrong_in_a_sweep_is_told_with_its_place_and_what_is_accepted() {
         ("mesh.scale=0:2:3:log", "numbers above 0"),
         ("=1:2:3", "no key is named"),
     ] {
-        let told = refusal("", &[setting]);
-        assert!(told.contains(message) && told.contains("--set:1:"), "{setting}: {told}");
+        let reported = refusal("", &[setting]);
+        assert!(
+            reported.contains(message) && reported.contains("--set:1:"),
+            "{setting}: {reported}"
+        );
     }
-    let told = refusal("", &["mesh.scale=1:2:1000", "fluid.viscosity=1:2:1000"]);
-    assert!(told.contains("more than 100000 points"), "{told}");
+    let reported = refusal("", &["mesh.scale=1:2:1000", "fluid.viscosity=1:2:1000"]);
+    assert!(reported.contains("more than 100000 points"), "{reported}");
 }
 
 #[test]
 fn a_point_that_is_wrong_says_where_its_value_is_written() {
     let sweep = sweep("[sweep.grid]\nfluid.viscsity = [1.0, 2.0]\n", &[]).unwrap();
-    let told = sweep.case(1).unwrap_err().to_string();
-    assert!(told.contains("case.toml:4:") && told.contains("did you mean `viscosity`"), "{told}");
+    let reported = sweep.case(1).unwrap_err().to_string();
+    assert!(
+        reported.contains("case.toml:4:") && reported.contains("did you mean `viscosity`"),
+        "{reported}"
+    );
     let sweep = super::Sweep::read("squirmer-alone", &["fluid.viscosity=1,-2".to_owned()]).unwrap();
     let found = check(&sweep.case(1).unwrap_or_else(|error| panic!("{error}")));
     assert!(found[0].location.is_some(), "{found:?}");

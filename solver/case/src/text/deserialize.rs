@@ -102,7 +102,7 @@ impl<'de> de::Deserializer<'de> for &TomlNode {
     }
 }
 
-// Errors of the functions above, which are compiled anew for each type of a case; these are not.
+// Errors of the functions above, which are compiled again for each type of a case; these are not.
 
 fn no_date(date: &str) -> TypeError {
     TypeError::new(Mismatch::Other(

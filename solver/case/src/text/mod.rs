@@ -1,4 +1,4 @@
-//! Texts of cases: trees of TOML that know where they were written, what is wrong in them and how it is told.
+//! Texts of cases: trees of TOML that know where they were written, what is wrong in them and how it is reported.
 
 pub(crate) mod angle;
 pub(crate) mod csv_line;

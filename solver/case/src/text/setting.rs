@@ -24,7 +24,7 @@ pub fn source(setting: &str) -> Arc<Source> {
     })
 }
 
-/// Reads one setting; what is in the tree already tells whether a text is wanted.
+/// Reads one setting; what is in the tree already shows whether a text is wanted.
 ///
 /// # Errors
 /// When it is no setting, or its value is neither TOML nor a word.

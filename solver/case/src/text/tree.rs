@@ -14,7 +14,7 @@ use super::toml_help::toml_help;
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 22] = [
+pub const CHOICES: [&str; 23] = [
     "kind",
     "length",
     "angle",
@@ -37,6 +37,7 @@ pub const CHOICES: [&str; 22] = [
     "fields",
     "series",
     "until",
+    "viscosity",
 ];
 
 /// A value and where it is written.

@@ -1,17 +1,20 @@
 //! From boundary conditions and bodies to constraints on the raw unknowns.
 //!
-//! A node on a body: u = U + omega x (x - G) + slip, with U and omega raw unknowns themselves.
+//! A node on a body: u = U + omega x (x - G) + slip, with U and omega raw unknowns themselves, or a sum of rates of
+//! coordinates of the body, whose mean is U.
 //! Where boundaries meet, bodies come first, then walls, then inflows, then symmetry planes.
 
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
-use super::kinematics::{RigidRow, turned_component};
-use super::problem::{Drive, Problem};
-use super::shapes::{BodyShapes, MovingSurface};
+use super::kinematics::RigidRow;
+use super::problem::{Drive, Problem, RigidBody};
+use super::shapes::BodyShapes;
+use super::surface::{BodyVelocity, MovingSurface, RestPlaces};
 use crate::algebra::{AffineConstraints, ConstraintBuilder, Term};
-use crate::body::{Pose, Twist, in_space};
+use crate::body::{Mode, Pose, Twist, in_space, on_mesh};
 use crate::space::DofLayout;
+use crate::structure::{Held, Weight};
 
 /// Bodies at one time: where they are and how their surfaces move.
 #[derive(Debug, Clone, Copy)]
@@ -27,15 +30,16 @@ pub(super) struct Constrainer<'a, const D: usize> {
     pub problem: &'a Problem<D>,
     pub mesh: &'a Mesh<D>,
     pub layout: &'a DofLayout<D>,
+    /// Where nodes on bodies with coordinates are at rest.
+    pub rest_places: &'a RestPlaces,
 }
 
 impl<const D: usize> Constrainer<'_, D> {
     /// The constraints with bodies at these poses.
     pub fn constraints(&self, boundaries: &Boundaries, bodies: BodiesAt<'_>) -> AffineConstraints {
         let mut builder = ConstraintBuilder::new(self.layout.n_raw());
-        let raw = |body: usize, position: usize| self.layout.rigid(body, position);
         let time = bodies.shapes.time();
-        constrain_rigid_velocities(self.problem, bodies.poses, time, raw, &mut builder);
+        constrain_rigid_velocities(self.problem, bodies.poses, time, self.layout, &mut builder);
         let surfaces = bodies.shapes.surfaces(&self.problem.bodies, bodies.poses);
         for at in boundaries.nodes() {
             match at.body {
@@ -50,7 +54,7 @@ impl<const D: usize> Constrainer<'_, D> {
         builder.build()
     }
 
-    /// u = U + omega x (x - G) + slip.
+    /// The velocity of a node on a body, by those of the body.
     fn attach_to_body(
         &self,
         node: NodeId,
@@ -58,20 +62,18 @@ impl<const D: usize> Constrainer<'_, D> {
         surface: &MovingSurface<'_>,
         builder: &mut ConstraintBuilder,
     ) {
-        let modes = self.problem.modes();
-        let position = in_space(&self.mesh.nodes[node]);
-        let slip = surface.velocity(&position);
-        let lever = position - surface.pose().center;
-        for axis in 0..D {
-            let entries = modes.iter().enumerate().filter_map(|(position, mode)| {
-                let weight = match (mode.is_rotation(), mode.axis() == axis) {
-                    (false, true) => 1.0,
-                    (true, false) => turned_component(mode, &lever, axis),
-                    (false, false) | (true, true) => return None,
+        let (layout, modes) = (self.layout, self.problem.modes());
+        let point = in_space(&self.mesh.nodes[node]);
+        let rows = surface.rows::<D>(&point, self.rest_places.get(&node), modes);
+        for (axis, row) in rows.into_iter().enumerate() {
+            let terms = row.weights.into_iter().filter_map(|(velocity, weight)| {
+                let unknown = match velocity {
+                    BodyVelocity::Rigid(mode) => layout.rigid(body, modes.position(mode)?),
+                    BodyVelocity::Rate(coordinate) => layout.rate(coordinate),
                 };
-                Some(Term { unknown: self.layout.rigid(body, position), weight })
+                Some(Term { unknown, weight })
             });
-            builder.constrain(self.layout.velocity(node, axis), entries.collect(), slip[axis]);
+            builder.constrain(layout.velocity(node, axis), terms.collect(), row.remainder);
         }
     }
 
@@ -132,21 +134,23 @@ impl<const D: usize> Constrainer<'_, D> {
     }
 }
 
-/// Constrains rigid velocities that are given at a time (s) or follow from others, with bodies at poses in the mesh;
-/// `raw(body, position)` is the raw unknown of a motion.
+/// Constrains velocities of bodies that are given at a time (s) or follow from others, with bodies at poses in the mesh.
 pub(super) fn constrain_rigid_velocities<const D: usize>(
     problem: &Problem<D>,
     poses: &[Pose],
     time: f64,
-    raw: impl Fn(usize, usize) -> usize,
+    layout: &DofLayout<D>,
     builder: &mut ConstraintBuilder,
 ) {
     let modes = problem.modes();
     let rows = problem.has_joints().then(|| problem.rigid_rows(poses, time));
-    for (body, rigid) in problem.bodies.iter().enumerate() {
+    let raw = |body: usize, position: usize| layout.rigid(body, position);
+    for ((body, rigid), own) in problem.bodies.iter().enumerate().zip(problem.coordinates()) {
         for (position, mode) in modes.iter().enumerate() {
             let drive = rigid.drive(mode);
-            if let Some(value) = drive.given(time) {
+            if let Some(mean) = mean_velocity(rigid, layout, own.start, mode) {
+                builder.constrain(raw(body, position), mean, 0.0);
+            } else if let Some(value) = drive.given(time) {
                 builder.fix(raw(body, position), value);
             } else if let (Drive::Linked, Some(rows)) = (drive, &rows) {
                 let row = &rows[body][mode];
@@ -162,6 +166,29 @@ pub(super) fn constrain_rigid_velocities<const D: usize>(
             }
         }
     }
+    for Held { coordinate, rate, .. } in problem.held_coordinates(time) {
+        builder.fix(layout.rate(coordinate), rate);
+    }
+}
+
+/// A velocity of a body with coordinates, of which `first` is the first one, by their rates: that of its centre along
+/// the axis of a translation, and none in a rotation. `None` of another body.
+fn mean_velocity<const D: usize>(
+    rigid: &RigidBody,
+    layout: &DofLayout<D>,
+    first: usize,
+    mode: Mode,
+) -> Option<Vec<Term<usize>>> {
+    let flexible = rigid.flexible()?;
+    if mode.is_rotation() {
+        return Some(Vec::new());
+    }
+    let rotation = rigid.pose.rotation();
+    let term = |at: &Weight| Term {
+        unknown: layout.rate(first + at.coordinate),
+        weight: (rotation * at.weight)[mode.axis()],
+    };
+    Some(flexible.center_weights().iter().map(term).collect())
 }
 
 /// The first vertex of each facet on a side of the domain, if it is on no body.
@@ -200,10 +227,9 @@ pub fn impose_boundary_values<const D: usize>(
     for at in boundaries.nodes() {
         let point = mesh.nodes[at.node];
         if let Some(body) = at.body {
-            let lever = in_space(&point) - poses[body].center;
-            let rigid = values.twists[body].velocity_at(&lever);
-            let slip = surfaces[body].velocity(&in_space(&point));
-            velocity[at.node] = Point::<D>::from_fn(|axis, _| rigid[axis] + slip[axis]);
+            let (twist, rest) = (&values.twists[body], values.rest_places.get(&at.node));
+            let carried = surfaces[body].carried(twist, values.rates, &in_space(&point), rest);
+            velocity[at.node] = on_mesh(&carried);
             continue;
         }
         let in_laboratory = point + values.origin;
@@ -228,6 +254,10 @@ pub struct BoundaryValues<'a, const D: usize> {
     pub bodies: BodiesAt<'a>,
     /// Their rigid velocities.
     pub twists: &'a [Twist],
+    /// Rates of the coordinates of all bodies.
+    pub rates: &'a [f64],
+    /// Where nodes on bodies with coordinates are at rest (m).
+    pub rest_places: &'a RestPlaces,
     /// Position of the frame (m).
     pub origin: Point<D>,
 }

@@ -3,6 +3,7 @@
 mod boundaries;
 mod constrain;
 mod error;
+mod flexible_equation;
 mod kinematics;
 mod linear_system;
 mod loads;
@@ -14,12 +15,14 @@ mod projection;
 mod rigid_equations;
 mod shapes;
 mod solution;
+mod surface;
 mod system;
 mod uniform_flows;
 
 pub use boundaries::{Boundaries, BoundaryNode};
 pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
 pub use error::{SolveError, coordinates};
+pub use flexible_equation::FlexibleEquation;
 pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{
     BodyLoads, BodyStates, JointReport, LoadedBodies, MeanMotion, PropulsionPower, ResidualOnMesh,
@@ -28,14 +31,16 @@ pub use loads::{
 };
 pub use mean_flow::MeanFlowReport;
 pub use problem::{
-    Arm, Drive, Group, Joint, JointLaw, Length, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue,
-    Pivot, Problem, RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile,
-    angle_about, second_moments,
+    Arm, Drive, FieldPart, Group, Joint, JointLaw, Length, LocalField, Magnet, MagneticField,
+    MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue, Pivot, Problem, RateDiscontinuities,
+    RigidBody, Side, Spring, TimeValue, Turn, UniformField, VelocityProfile, angle_about,
+    coordinate_ranges, second_moments,
 };
 pub use projection::DivergenceFreeProjection;
 pub use rigid_equations::{
     JointLoad, OlderMotion, PosesByVelocity, RigidBodyEquation, RigidBodyEquations,
 };
-pub use shapes::{BodyShapes, MovingSurface, ShapeError};
+pub use shapes::{BodyShapes, ShapeError};
 pub use solution::Solution;
-pub use system::{Configuration, FluidSystem};
+pub use surface::{MovingSurface, RestPlaces};
+pub use system::{Configuration, FluidSystem, MeshedBodies};

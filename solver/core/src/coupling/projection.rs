@@ -8,14 +8,15 @@ use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::constrain::Constrainer;
 use super::linear_system::{
-    Coefficients, Discretised, SolverChoice, SystemSolver, saddle_point, system_solver,
+    Coefficients, Discretised, NewSystem, SolverChoice, SystemSolver, saddle_point, system_solver,
 };
 use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
+use super::surface::RestPlaces;
 use super::uniform_flows::{UniformFlows, integral, node_integrals};
 
 use crate::algebra::{AffineConstraints, ConstraintBuilder, LinearError};
-use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
+use crate::flow::{Assembly, Convection, Fields, FlowTerms, ViscosityTerm, assemble, residual};
 use crate::space::{DofLayout, Metric, straight_cell};
 use crate::timing::Timing;
 
@@ -46,7 +47,7 @@ const NEARLY_INVISCID: f64 = 1e-6;
 /// Neither stress nor convection, and as much mass as asked for.
 fn terms<'a, const D: usize>(density: f64) -> FlowTerms<'a, D> {
     FlowTerms {
-        viscosity: 0.0,
+        viscosity: ViscosityTerm::Constant(0.0),
         density,
         rate: 1.0,
         history: &[],
@@ -64,7 +65,8 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
         let saddle_point = saddle_point(&layout, &constraints, problem.modes());
-        let linear = system_solver(&assembly, &constraints, saddle_point, SolverChoice::Automatic);
+        let system = NewSystem { constraints: &constraints, saddle_point, blocks: Vec::new() };
+        let linear = system_solver(&assembly, system, SolverChoice::Automatic);
         let has_periods = problem.sides.iter().any(|side| matches!(side, Some(Side::Periodic)));
         let open_axes = match (problem.is_enclosed() && has_periods, problem.metric) {
             (false, _) => 0,
@@ -90,7 +92,8 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let viscosity = NEARLY_INVISCID * edge * edge;
         let coefficients = Coefficients { viscosity, inertia: 1.0, has_convection: false };
         let tables = self.assembly.tables();
-        let discretised = Discretised { mesh, layout: &self.layout, constraints, tables };
+        let discretised =
+            Discretised { mesh, layout: &self.layout, constraints, tables, local: None };
         self.linear.forget_weights();
         let weights = &|| discretised.weights(coefficients);
         self.linear.prepare(coefficients, weights, &mut Timing::default());
@@ -235,6 +238,7 @@ fn hold_given_velocities<const D: usize>(
             }
         }
     }
-    Constrainer { problem, mesh, layout }.close_pressures_and_periods(&mut builder);
+    let rest_places = &RestPlaces::new();
+    Constrainer { problem, mesh, layout, rest_places }.close_pressures_and_periods(&mut builder);
     builder.build()
 }

@@ -3,15 +3,16 @@
 //! With V the rigid velocities of a body, M its mass matrix in the world and h the older part of the
 //! difference of its momentum divided by M: M (rate V + h) + resistance V = fluid + external.
 
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
+use super::flexible_equation::FlexibleEquation;
 use super::kinematics::Levers;
 use super::problem::{FreeArm, Joint, JointLaw, Problem, RigidBody, Turn};
 use super::shapes::BodyShapes;
-use crate::body::{Inertia, Modes, Pose, RigidVector, Twist, Wrench, carried_velocity};
+use crate::body::{Inertia, Mode, Modes, Pose, RigidVector, Twist, Wrench, carried_velocity};
 
 /// The equations of all bodies.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct RigidBodyEquations {
     /// Factor of the new velocity in its time derivative (1/s), 0 when steady.
     pub rate: f64,
@@ -19,6 +20,8 @@ pub struct RigidBodyEquations {
     pub bodies: Vec<RigidBodyEquation>,
     /// Loads in free pivots and along arms of free length.
     pub joints: Vec<JointLoad>,
+    /// Of bodies with coordinates, in which the rigid velocities of these have no part.
+    pub flexible: Vec<FlexibleEquation>,
 }
 
 /// The equations of one body.
@@ -32,6 +35,27 @@ pub struct RigidBodyEquation {
     pub resistance: RigidVector,
     /// Load from outside (N, N m).
     pub external: RigidVector,
+    /// Torque per angular velocity by which a magnetic field turns its body in a step (N m s/rad).
+    pub magnetic: Option<Matrix3<f64>>,
+}
+
+impl RigidBodyEquation {
+    /// Adds the torque of a field by a stiffness (N m/rad) where the velocity that is expected has led to a turn, and
+    /// a velocity adds `coefficient` (s) times itself.
+    fn add_turning(&mut self, stiffness: &Matrix3<f64>, led: &RigidVector, coefficient: f64) {
+        let turned = stiffness * led.fixed_rows::<3>(3);
+        for axis in 0..3 {
+            self.external[3 + axis] += turned[axis];
+        }
+        self.magnetic = Some(stiffness * coefficient);
+    }
+
+    /// Torque on the magnet against an angular velocity about an axis, by one about another (N m s/rad).
+    pub(super) fn magnetic_resistance(&self, one: Mode, other: Mode) -> Option<f64> {
+        let is_turn = one.is_rotation() && other.is_rotation();
+        let of_axes = |resistance: Matrix3<f64>| resistance[(one.axis(), other.axis())];
+        self.magnetic.filter(|_| is_turn).map(of_axes)
+    }
 }
 
 /// Load - resistance rate along a coordinate of a joint. The rate is on_child . V_child + on_parent .
@@ -142,11 +166,17 @@ impl Inertial {
 }
 
 impl RigidBodyEquations {
-    /// Bodies without acceleration at poses, under the loads of a time (s).
+    /// Bodies without acceleration at poses, those with coordinates as they start, under the loads of a time (s).
     #[must_use]
     pub fn steady<const D: usize>(problem: &Problem<D>, poses: &[Pose], time: f64) -> Self {
         let mut equations = Self::without_loads(problem.bodies.len());
         equations.add_loads(problem, time, PosesByVelocity::staying(poses));
+        for (body, own) in problem.bodies.iter().zip(problem.coordinates()) {
+            let Some(flexible) = body.flexible() else { continue };
+            let initial = flexible.initial();
+            let steady = FlexibleEquation::steady(own.start, flexible, initial.as_slice(), time);
+            equations.flexible.push(steady);
+        }
         equations
     }
 
@@ -179,6 +209,10 @@ impl RigidBodyEquations {
         }
         for (body, (equation, rigid)) in self.bodies.iter_mut().zip(&problem.bodies).enumerate() {
             equation.external = rigid.external(time, &expected[body]);
+            if let Some(magnet) = rigid.magnet.as_ref().filter(|_| coefficient != 0.0) {
+                let stiffness = magnet.turning_stiffness(time, &expected[body]);
+                equation.add_turning(&stiffness, &reached.led_by_velocity(body), coefficient);
+            }
             let Some(spring) = &rigid.spring else { continue };
             equation.resistance = spring.damping + spring.stiffness * coefficient;
             let way = reached.way_from(body, &spring.rest);
@@ -254,6 +288,11 @@ impl RigidBodyEquations {
                 raw[row(body, position)] += momentum_rate[mode]
                     + equation.resistance[mode] * velocity[mode]
                     - equation.external[mode];
+                for other in modes.iter() {
+                    if let Some(resistance) = equation.magnetic_resistance(mode, other) {
+                        raw[row(body, position)] += resistance * velocity[other];
+                    }
+                }
             }
         }
         for joint in &self.joints {

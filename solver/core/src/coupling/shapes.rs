@@ -1,13 +1,16 @@
-//! `BodyShapes`: the shapes of all bodies at one time, and the velocities of their surfaces.
+//! `BodyShapes`: the shapes of all bodies at one time, by their gaits or their coordinates.
+
+use std::ops::Range;
+use std::sync::Arc;
 
 use alewife_mesh::spatial::BodySurface;
 use alewife_mesh::{Outline, Point};
-use nalgebra::Vector3;
 use thiserror::Error;
 
-use super::problem::RigidBody;
+use super::problem::{RigidBody, coordinate_ranges, initial_coordinates};
+use super::surface::MovingSurface;
 use crate::body::{Inertia, Orientation, Pose};
-use crate::gait::{DeformedOutline, Gait, GaitError};
+use crate::gait::{DeformedOutline, GaitError};
 
 /// A gait that gives a body no shape at some time.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -25,7 +28,7 @@ pub struct ShapeError {
 pub struct BodyShapes {
     time: f64,
     /// `None` for bodies that do not deform.
-    shapes: Vec<Option<BodyShape>>,
+    shapes: Vec<Option<Arc<BodyShape>>>,
 }
 
 #[derive(Debug, Clone)]
@@ -43,36 +46,67 @@ enum ShapeBoundary {
     Surface(BodySurface),
 }
 
-impl RigidBody {
-    /// The outline at a time (s); `None` for a body that does not deform.
+impl BodyShapes {
+    /// These shapes, where bodies have coordinates with others of them.
     ///
     /// # Errors
-    /// [`ShapeError`] where a gait gives the body no shape.
-    pub fn deformed_at(&self, time: f64) -> Result<Option<DeformedOutline>, ShapeError> {
-        let deformed = self.shape.as_ref().map(|motion| motion.at(time)).transpose();
+    /// [`ShapeError`] where they give a body no shape.
+    pub fn with_coordinates(
+        &self,
+        bodies: &[RigidBody],
+        coordinates: &[f64],
+    ) -> Result<Self, ShapeError> {
+        if coordinates.is_empty() {
+            return Ok(self.clone());
+        }
+        Self::with(bodies, self.time, coordinates)
+    }
+}
+
+impl RigidBody {
+    /// The outline at a time (s) with coordinates of the body; `None` for a body that does not deform.
+    ///
+    /// # Errors
+    /// [`ShapeError`] where they give the body no shape.
+    pub fn deformed_at(
+        &self,
+        time: f64,
+        coordinates: &[f64],
+    ) -> Result<Option<DeformedOutline>, ShapeError> {
+        let shape = self.shape.as_ref();
+        let deformed = shape.map(|motion| motion.with_coordinates(time, coordinates)).transpose();
         deformed.map_err(|reason| ShapeError { body: self.name.clone(), reason })
     }
 
-    /// Mass and inertia tensor with the outline at a time (s).
+    /// Mass and inertia tensor with the outline at a time (s); none of a body with coordinates, which have its mass.
     ///
     /// # Errors
     /// [`ShapeError`] where a gait gives the body no shape.
     pub fn inertia_at(&self, time: f64) -> Result<Inertia, ShapeError> {
-        if self.inertia.is_zero() {
+        if self.inertia.is_zero() || self.flexible().is_some() {
             return Ok(self.inertia);
         }
-        Ok(self.inertia_with(self.deformed_at(time)?.as_ref()))
+        Ok(self.inertia_with(self.deformed_at(time, &[])?.as_ref()))
     }
 }
 
 impl BodyShapes {
-    /// The shapes at a time (s).
+    /// The shapes at a time (s), those of bodies with coordinates as they are at time zero.
     ///
     /// # Errors
     /// [`ShapeError`] where a gait gives its body no shape.
     pub fn at(bodies: &[RigidBody], time: f64) -> Result<Self, ShapeError> {
-        let shape = |body: &RigidBody| {
-            let Some(deformed) = body.deformed_at(time)? else { return Ok(None) };
+        Self::with(bodies, time, &initial_coordinates(bodies))
+    }
+
+    /// The shapes at a time (s) with coordinates of all bodies.
+    ///
+    /// # Errors
+    /// [`ShapeError`] where they give a body no shape.
+    pub fn with(bodies: &[RigidBody], time: f64, coordinates: &[f64]) -> Result<Self, ShapeError> {
+        let shape = |(body, own): (&RigidBody, Range<usize>)| {
+            let deformed = body.deformed_at(time, &coordinates[own])?;
+            let Some(deformed) = deformed else { return Ok(None) };
             let refuse = |reason| ShapeError { body: body.name.clone(), reason };
             // A body in space crosses itself where its outline in the plane of the midline does
             let outline = deformed.outline(time).map_err(refuse)?;
@@ -82,9 +116,10 @@ impl BodyShapes {
                     deformed.surface().ok_or(GaitError::Shape).map_err(refuse)?,
                 ),
             };
-            Ok(Some(BodyShape { deformed, boundary }))
+            Ok(Some(Arc::new(BodyShape { deformed, boundary })))
         };
-        Ok(Self { time, shapes: bodies.iter().map(shape).collect::<Result<_, _>>()? })
+        let bodies = bodies.iter().zip(coordinate_ranges(bodies));
+        Ok(Self { time, shapes: bodies.map(shape).collect::<Result<_, _>>()? })
     }
 
     /// At time zero, as if no body deformed.
@@ -130,7 +165,9 @@ impl BodyShapes {
         bodies: &'a [RigidBody],
         poses: &[Pose],
     ) -> Vec<MovingSurface<'a>> {
-        let surface = |((body, shape), pose): ((&'a RigidBody, &'a Option<BodyShape>), &Pose)| {
+        let own = coordinate_ranges(bodies).into_iter();
+        type Shaped<'a> = (&'a RigidBody, &'a Option<Arc<BodyShape>>);
+        let surface = |((body, shape), (pose, own)): (Shaped<'a>, (&Pose, Range<usize>))| {
             let place = |shape: &'a BodyShape| {
                 let center = Point::<2>::new(pose.center.x, pose.center.y);
                 let outline = match &shape.boundary {
@@ -141,53 +178,13 @@ impl BodyShapes {
             };
             MovingSurface {
                 gait: body.gait.as_deref(),
-                shape: shape.as_ref().map(place),
+                shape: shape.as_deref().map(place),
+                is_flexible: body.flexible().is_some(),
+                first: own.start,
                 pose: *pose,
                 time: self.time,
             }
         };
-        bodies.iter().zip(&self.shapes).zip(poses).map(surface).collect()
-    }
-}
-
-/// The surface of a body at one time.
-pub struct MovingSurface<'a> {
-    gait: Option<&'a dyn Gait>,
-    /// The shape in the frame of the body, and where the outline of one in the plane is in the world.
-    shape: Option<(&'a DeformedOutline, Option<Outline>)>,
-    pose: Pose,
-    time: f64,
-}
-
-impl MovingSurface<'_> {
-    /// Where the body is.
-    #[must_use]
-    pub fn pose(&self) -> &Pose {
-        &self.pose
-    }
-
-    /// Velocity of the surface relative to the rigid motion, in the world (m/s), at a point of it
-    /// (m).
-    #[must_use]
-    pub fn velocity(&self, point: &Vector3<f64>) -> Vector3<f64> {
-        let rotation = self.pose.rotation();
-        let mut velocity = Vector3::zeros();
-        if let Some(gait) = self.gait {
-            let lever = point - self.pose.center;
-            velocity += gait.velocity(&(rotation.inverse() * lever), self.time);
-        }
-        if let Some((deformed, outline)) = &self.shape {
-            velocity += match outline {
-                Some(outline) => {
-                    let rate = deformed.rate(outline.parameter_of(point.xy()));
-                    Vector3::new(rate.x, rate.y, 0.0)
-                }
-                None => {
-                    let place = rotation.inverse() * (point - self.pose.center);
-                    deformed.velocity(deformed.material_at(&place))
-                }
-            };
-        }
-        rotation * velocity
+        bodies.iter().zip(&self.shapes).zip(poses.iter().zip(own)).map(surface).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! `Solution`: values of all raw unknowns: velocities, pressures, rigid velocities.
+//! `Solution`: values of all raw unknowns: velocities, pressures, velocities of bodies.
 
 use alewife_mesh::Point;
 use serde::{Deserialize, Serialize};
@@ -16,6 +16,8 @@ pub struct Solution<const D: usize> {
     pub pressure: Vec<f64>,
     /// Rigid velocities of the bodies.
     pub twists: Vec<Twist>,
+    /// Rates of the coordinates of all bodies.
+    pub rates: Vec<f64>,
     /// Mean pressure gradient along periodic directions (Pa/m), which is no part of `pressure`.
     pub pressure_gradient: Point<D>,
 }
@@ -28,6 +30,7 @@ impl<const D: usize> Solution<D> {
             velocity: vec![Point::<D>::zeros(); layout.n_nodes],
             pressure: vec![0.0; layout.n_vertices],
             twists: vec![Twist::default(); layout.n_bodies],
+            rates: vec![0.0; layout.n_coordinates],
             pressure_gradient: Point::<D>::zeros(),
         }
     }
@@ -47,7 +50,30 @@ impl<const D: usize> Solution<D> {
             velocity: velocities.map(Point::<D>::from_column_slice).collect(),
             pressure: raw[layout.pressures()].to_vec(),
             twists: (0..layout.n_bodies).map(twist).collect(),
+            rates: raw[layout.rate(0)..].to_vec(),
             pressure_gradient: Point::<D>::zeros(),
+        }
+    }
+
+    /// The point at a part (1) of the way to another one.
+    #[must_use]
+    pub fn towards(&self, other: &Self, part: f64) -> Self {
+        let between = |from: &Point<D>, to: &Point<D>| from + (to - from) * part;
+        let velocities = self.velocity.iter().zip(&other.velocity);
+        let number = |(from, to): (&f64, &f64)| from + (to - from) * part;
+        let pressures = self.pressure.iter().zip(&other.pressure);
+        let rates = self.rates.iter().zip(&other.rates);
+        let twists = self.twists.iter().zip(&other.twists);
+        let twist = |(from, to): (&Twist, &Twist)| {
+            let from = from.to_vector();
+            Twist::from_vector(&(from + (to.to_vector() - from) * part))
+        };
+        Self {
+            velocity: velocities.map(|(from, to)| between(from, to)).collect(),
+            pressure: pressures.map(number).collect(),
+            twists: twists.map(twist).collect(),
+            rates: rates.map(number).collect(),
+            pressure_gradient: between(&self.pressure_gradient, &other.pressure_gradient),
         }
     }
 
@@ -57,7 +83,8 @@ impl<const D: usize> Solution<D> {
         let velocities = self.velocity.iter().flat_map(|velocity| velocity.iter().copied());
         let rigid =
             self.twists.iter().flat_map(|twist| modes.iter().map(|mode| twist.component(mode)));
-        velocities.chain(self.pressure.iter().copied()).chain(rigid).collect()
+        let bodies = rigid.chain(self.rates.iter().copied());
+        velocities.chain(self.pressure.iter().copied()).chain(bodies).collect()
     }
 
     /// The fields among the unknowns.
@@ -80,13 +107,19 @@ mod tests {
     use super::*;
 
     fn check<const D: usize>(modes: Modes) {
-        let layout =
-            DofLayout::<D> { n_nodes: 5, n_vertices: 3, n_bodies: 2, n_modes: modes.len() };
+        let layout = DofLayout::<D> {
+            n_nodes: 5,
+            n_vertices: 3,
+            n_bodies: 2,
+            n_modes: modes.len(),
+            n_coordinates: 4,
+        };
         let raw: Vec<f64> = (0..layout.n_raw()).map(|i| 0.5 + i as f64).collect();
         let solution = Solution::from_raw(&layout, modes, &raw);
         assert_eq!(solution.to_raw(modes), raw);
         assert_eq!(solution.velocity[2][D - 1], raw[layout.velocity(NodeId::new(2), D - 1)]);
         let last = modes.iter().next_back().unwrap();
+        assert_eq!(solution.rates, raw[layout.rate(0)..]);
         assert_eq!(solution.twists[1].component(last), raw[layout.rigid(1, modes.len() - 1)]);
     }
 

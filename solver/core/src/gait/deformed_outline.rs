@@ -6,10 +6,12 @@ use alewife_mesh::spatial::{self, BodySurface, SectionPoint, Sections, Slender};
 use alewife_mesh::{Moments, Outline, PlacedShape, Point, Shape, Spline};
 use nalgebra::{Isometry3, Vector3};
 
-use super::closed_surface::on_outline;
+use super::closed::on_outline;
 
 use super::error::GaitError;
+use super::flexible_shape::CarriedOutline;
 use super::recoil::RecoilMotion;
+use crate::structure::{Flexible, Weight};
 
 /// A material point of a body that deforms.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,13 +22,30 @@ pub struct MaterialPoint {
     pub around: f64,
 }
 
-/// How the outline of a body moves in the body's own frame.
+/// How the outline of a body moves in the body's own frame: as the time has it, or the coordinates of the body.
 pub trait ShapeMotion: std::fmt::Debug + Send + Sync {
     /// The outline at a time (s).
     ///
     /// # Errors
     /// [`GaitError`] where the gait makes no outline at this time.
     fn at(&self, time: f64) -> Result<DeformedOutline, GaitError>;
+
+    /// The outline at a time (s) with coordinates of the body; that at the time where it has none.
+    ///
+    /// # Errors
+    /// [`GaitError`] where they make no outline.
+    fn with_coordinates(
+        &self,
+        time: f64,
+        _coordinates: &[f64],
+    ) -> Result<DeformedOutline, GaitError> {
+        self.at(time)
+    }
+
+    /// What has the coordinates, where the outline follows some.
+    fn flexible(&self) -> Option<&Arc<dyn Flexible>> {
+        None
+    }
 
     /// Times (s) at which rates may jump, ascending, within (from, to); none for smooth gaits.
     fn discontinuities(&self, from: f64, to: f64) -> Vec<f64>;
@@ -57,6 +76,8 @@ pub struct DeformedOutline {
 pub(super) enum MaterialCurve {
     /// Positions (m) and velocities (m/s), linear in the same parameter.
     Spline { points: Arc<Spline>, rates: Spline },
+    /// Points carried by coordinates, and the spline through some of them.
+    Carried { points: Arc<Spline>, carried: CarriedOutline },
     /// Sections in space, and those of their velocities.
     Sections { surface: Arc<Slender>, rates: Sections },
     /// A disc or a sphere; the parameter is the angle.
@@ -99,7 +120,9 @@ impl MaterialCurve {
     /// The curve, whose parameter is a material point.
     pub(super) fn shape(&self) -> Option<Shape> {
         Some(match *self {
-            Self::Spline { ref points, .. } => Shape::Curve { spline: Arc::clone(points) },
+            Self::Spline { ref points, .. } | Self::Carried { ref points, .. } => {
+                Shape::Curve { spline: Arc::clone(points) }
+            }
             Self::Sections { .. } => Shape::Curve { spline: Arc::new(self.outline()?) },
             Self::Round { radius, is_sphere: true, .. } => Shape::Sphere { radius },
             Self::Round { radius, is_sphere: false, .. } => Shape::Disc { radius },
@@ -124,7 +147,9 @@ impl DeformedOutline {
             MaterialCurve::Round { radius, is_sphere: true, .. } => {
                 Some(spatial::Shape::Sphere { radius: *radius })
             }
-            MaterialCurve::Spline { .. } | MaterialCurve::Round { .. } => None,
+            MaterialCurve::Spline { .. }
+            | MaterialCurve::Carried { .. }
+            | MaterialCurve::Round { .. } => None,
         }
     }
 
@@ -157,6 +182,9 @@ impl DeformedOutline {
     pub fn position(&self, parameter: f64) -> Point<2> {
         match &self.curve {
             MaterialCurve::Spline { points, .. } => points.evaluate(parameter)[0],
+            MaterialCurve::Carried { carried, .. } => {
+                carried.place(&carried.rest_place(parameter)).xy()
+            }
             MaterialCurve::Sections { surface, .. } => {
                 let sections = surface.sections();
                 sections.point(on_outline(sections, parameter)).xy()
@@ -165,11 +193,13 @@ impl DeformedOutline {
         }
     }
 
-    /// Velocity of a material point in the body frame (m/s): the rate of [`Self::position`].
+    /// Velocity of a material point in the body frame (m/s): the rate of [`Self::position`], without what
+    /// coordinates of the body give of it.
     #[must_use]
     pub fn rate(&self, parameter: f64) -> Point<2> {
         match &self.curve {
             MaterialCurve::Spline { rates, .. } => rates.evaluate(parameter)[0],
+            MaterialCurve::Carried { .. } => Point::<2>::zeros(),
             MaterialCurve::Sections { rates, .. } => rates.point(on_outline(rates, parameter)).xy(),
             MaterialCurve::Round { radial_speed, .. } => radial(parameter) * *radial_speed,
         }
@@ -185,7 +215,9 @@ impl DeformedOutline {
                 let SectionPoint { along, around } = surface.parameter_of(*point);
                 MaterialPoint { along, around }
             }
-            MaterialCurve::Spline { .. } | MaterialCurve::Round { .. } => MaterialPoint {
+            MaterialCurve::Spline { .. }
+            | MaterialCurve::Carried { .. }
+            | MaterialCurve::Round { .. } => MaterialPoint {
                 along: point.y.hypot(point.z).atan2(point.x),
                 around: point.z.atan2(point.y),
             },
@@ -197,9 +229,9 @@ impl DeformedOutline {
     pub fn place(&self, at: MaterialPoint) -> Vector3<f64> {
         match &self.curve {
             MaterialCurve::Sections { surface, .. } => surface.sections().point(at.into()),
-            MaterialCurve::Spline { .. } | MaterialCurve::Round { .. } => {
-                around_axis(self.position(at.along), at.around)
-            }
+            MaterialCurve::Spline { .. }
+            | MaterialCurve::Carried { .. }
+            | MaterialCurve::Round { .. } => around_axis(self.position(at.along), at.around),
         }
     }
 
@@ -209,9 +241,31 @@ impl DeformedOutline {
     pub fn velocity(&self, at: MaterialPoint) -> Vector3<f64> {
         match &self.curve {
             MaterialCurve::Sections { rates, .. } => rates.point(at.into()),
-            MaterialCurve::Spline { .. } | MaterialCurve::Round { .. } => {
-                around_axis(self.rate(at.along), at.around)
-            }
+            MaterialCurve::Spline { .. }
+            | MaterialCurve::Carried { .. }
+            | MaterialCurve::Round { .. } => around_axis(self.rate(at.along), at.around),
+        }
+    }
+}
+
+impl DeformedOutline {
+    /// Where a point of an outline that follows coordinates is at rest (m), by its parameter; `None` of another outline.
+    #[must_use]
+    pub fn rest_place(&self, parameter: f64) -> Option<Vector3<f64>> {
+        Some(self.carried()?.rest_place(parameter))
+    }
+
+    /// The velocity of the point at a place at rest (m) by those of the coordinates, in the frame of the body; none
+    /// of an outline that follows no coordinates.
+    #[must_use]
+    pub fn weights(&self, rest: &Vector3<f64>) -> Vec<Weight> {
+        self.carried().map(|carried| carried.weights(rest)).unwrap_or_default()
+    }
+
+    fn carried(&self) -> Option<&CarriedOutline> {
+        match &self.curve {
+            MaterialCurve::Carried { carried, .. } => Some(carried),
+            _ => None,
         }
     }
 }

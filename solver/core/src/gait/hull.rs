@@ -7,8 +7,7 @@ use alewife_mesh::{GaussRule, Moments, Point, Profile, SecondMoments, Shape, Spl
 use nalgebra::Matrix3;
 use num_dual::{Dual64, DualNum};
 
-use super::closed_curve::ClosedCurve;
-use super::closed_surface::{ClosedSurface, EnclosedVolume};
+use super::closed::{ClosedCurve, ClosedSurface, EnclosedVolume, on_outline};
 use super::deformed_outline::MaterialCurve;
 use super::error::GaitError;
 use super::grid::Grid;
@@ -244,7 +243,9 @@ impl MaterialCurve {
     /// The closed curve of the outline, in space that in the plane of the midline.
     pub(super) fn outline(&self) -> Option<Spline> {
         match self {
-            Self::Spline { points, .. } => Some(points.as_ref().clone()),
+            Self::Spline { points, .. } | Self::Carried { points, .. } => {
+                Some(points.as_ref().clone())
+            }
             Self::Sections { surface, .. } => {
                 let sections = surface.sections();
                 let (knots, end) = (sections.knots(), sections.end());
@@ -252,8 +253,7 @@ impl MaterialCurve {
                 let back = knots[1..n].iter().rev().map(|knot| 2.0 * end - knot);
                 let all: Vec<f64> = knots.iter().copied().chain(back).collect();
                 let point = |parameter: &f64| {
-                    let at =
-                        sections.point(super::closed_surface::on_outline(sections, *parameter));
+                    let at = sections.point(on_outline(sections, *parameter));
                     [at.x, at.y]
                 };
                 let points: Vec<[f64; 2]> = all.iter().map(point).collect();

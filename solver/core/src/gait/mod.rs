@@ -1,9 +1,9 @@
 //! How a swimmer's surface moves by itself: slip along it, or an outline that deforms.
 
-mod closed_curve;
-mod closed_surface;
+mod closed;
 mod deformed_outline;
 mod error;
+mod flexible_shape;
 mod grid;
 mod hull;
 mod midline;
@@ -20,6 +20,7 @@ mod tests;
 
 pub use deformed_outline::{DeformedOutline, MaterialPoint, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;
+pub use flexible_shape::FlexibleShape;
 pub use midline::{
     AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Open,
 };

@@ -3,16 +3,17 @@
 use std::ops::Deref;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, CellQuality, Mesh, NodeId, Point};
+use nalgebra::Vector3;
 
 use super::boundary_condition::{MeshBoundaryCondition, MotionError, mesh_boundary_conditions};
 use super::elliptic::MeshMotion;
 use super::rigid::RigidMove;
 use super::rolling::Rolling;
-use super::scene::{Meshed, PosesByShift, RemeshError, Scene};
+use super::scene::{Meshed, PosesByShift, RemeshError, RestPlace, Scene};
 use super::stiffness::MotionKind;
 use crate::body::{Pose, RigidVector, in_space, on_mesh};
 use crate::contact::Gaps;
-use crate::coupling::BodyShapes;
+use crate::coupling::{BodyShapes, RestPlaces, RigidBody, coordinate_ranges};
 use crate::state::State;
 
 /// Quality of a cell over the lowest one of the reference mesh below which no flow is solved on it.
@@ -24,6 +25,8 @@ pub struct MovingMesh<const D: usize> {
     motion: MeshMotion<D>,
     /// Poses of the bodies in the reference mesh.
     reference_poses: Vec<Pose>,
+    /// Coordinates of the bodies in it that have some.
+    reference_coordinates: Vec<f64>,
     /// Time of the reference mesh (s).
     reference_time: f64,
     settings: MotionSettings,
@@ -116,6 +119,7 @@ impl<const D: usize> MovingMesh<D> {
         Ok(Self {
             motion,
             reference_poses,
+            reference_coordinates: Vec::new(),
             reference_time,
             settings,
             rolling,
@@ -123,6 +127,12 @@ impl<const D: usize> MovingMesh<D> {
             bodies,
             scene,
         })
+    }
+
+    /// The same with coordinates of bodies in the reference mesh.
+    #[must_use]
+    pub fn with_coordinates(self, coordinates: Vec<f64>) -> Self {
+        Self { reference_coordinates: coordinates, ..self }
     }
 
     /// How each body has carried its nodes from the reference mesh to these poses.
@@ -189,6 +199,44 @@ impl<const D: usize> MovingMesh<D> {
             (way + turn * self.gaps().reach(body)) / self.edges[body]
         };
         pairs.map(of_body).fold(0.0, f64::max)
+    }
+
+    /// The same of where nodes are on bodies with coordinates, between two shapes of these.
+    #[must_use]
+    pub fn misshape(&self, shapes: [&BodyShapes; 2]) -> f64 {
+        let of_node = |RestPlace { node, body, .. }: &RestPlace| {
+            let places = shapes.map(|shapes| self.scene.material_position(*node, *body, shapes));
+            let [Some(one), Some(other)] = places else { return 0.0 };
+            (one - other).norm() / self.edges[*body]
+        };
+        self.scene.rest_places(shapes[0]).iter().map(of_node).fold(0.0, f64::max)
+    }
+
+    /// The largest speed (m/s) of a node on a body by rates of the coordinates of all bodies, which have these.
+    #[must_use]
+    pub fn fastest(&self, bodies: &[RigidBody], coordinates: &[f64], rates: &[f64]) -> f64 {
+        let Ok(shapes) = BodyShapes::with(bodies, self.reference_time, coordinates) else {
+            return 0.0;
+        };
+        let own = coordinate_ranges(bodies);
+        let speed = |RestPlace { body, place, .. }: &RestPlace| {
+            let weights = shapes.deformed(*body).map(|deformed| deformed.weights(place));
+            let first = own[*body].start;
+            let velocity: Vector3<f64> = weights
+                .unwrap_or_default()
+                .iter()
+                .map(|at| at.weight * rates[first + at.coordinate])
+                .sum();
+            velocity.norm()
+        };
+        self.scene.rest_places(&shapes).iter().map(speed).fold(0.0, f64::max)
+    }
+
+    /// Where nodes on bodies with coordinates are at rest (m).
+    #[must_use]
+    pub fn rest_places(&self, shapes: &BodyShapes) -> RestPlaces {
+        let places = self.scene.rest_places(shapes).into_iter();
+        places.map(|RestPlace { node, place, .. }| (node, place)).collect()
     }
 
     /// Whether the mesh of a state has to be replaced, and why.
@@ -275,6 +323,12 @@ impl<const D: usize> MovingMesh<D> {
     #[must_use]
     pub fn reference(&self) -> &[Point<D>] {
         self.motion.reference()
+    }
+
+    /// Coordinates of the bodies in the reference mesh that have some.
+    #[must_use]
+    pub fn reference_coordinates(&self) -> &[f64] {
+        &self.reference_coordinates
     }
 
     /// Poses of the bodies in the reference mesh.

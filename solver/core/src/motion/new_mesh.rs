@@ -109,7 +109,7 @@ fn generate<const D: usize>(
 ) -> Result<NewMesh<D>, RemeshError> {
     let Expected { time, poses } = expected;
     let origin = state.origin_at(problem, poses);
-    let shapes = BodyShapes::at(&problem.bodies, *time)?;
+    let shapes = BodyShapes::with(&problem.bodies, *time, &state.shapes.now)?;
     let moved = |shifts: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
         state.image_shifts.iter().zip(shifts).map(|(known, shift)| known + shift).collect()
     };
@@ -117,8 +117,10 @@ fn generate<const D: usize>(
     let seen = state.in_frame(&origin, poses);
     let Meshed { mesh, scene, poses, shifts } = moving.remesh(&seen, &shapes, &shifted)?;
     let image_shifts = moved(&shifts);
-    let moving = moving.succeeded_by(&mesh, scene, poses, *time)?;
-    if *time == state.time {
+    let moving =
+        moving.succeeded_by(&mesh, scene, poses, *time)?.with_coordinates(state.shapes.now.clone());
+    // Outlines that follow coordinates go through some of their points, and between them nearly so
+    if *time == state.time && state.shapes.now.is_empty() {
         return Ok(NewMesh { mesh, moving, image_shifts });
     }
     let present = seen_from(&state.origin, &state.poses, &image_shifts);

@@ -9,8 +9,8 @@ use super::scene::RemeshError;
 use super::transfer::Transfer;
 use crate::body::on_mesh;
 use crate::coupling::{
-    BodiesAt, BodyShapes, Boundaries, BoundaryValues, DivergenceFreeProjection, Problem, Solution,
-    impose_boundary_values,
+    BodiesAt, BodyShapes, Boundaries, BoundaryValues, DivergenceFreeProjection, Problem,
+    RestPlaces, Solution, impose_boundary_values,
 };
 use crate::space::Tables;
 use crate::state::{State, TransferredState, seen_from};
@@ -39,7 +39,7 @@ pub fn replace_mesh<const D: usize>(
     state: &mut State<D>,
     moving: &MovingMesh<D>,
 ) -> Result<MovingMesh<D>, RemeshError> {
-    let shapes = BodyShapes::at(&problem.bodies, state.time)?;
+    let shapes = BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
     let NewMesh { mesh: new, moving: successor, image_shifts } =
         new_mesh(problem, state, moving, &shapes)?;
     let poses = seen_from(&state.origin, &state.poses, &image_shifts);
@@ -49,13 +49,15 @@ pub fn replace_mesh<const D: usize>(
 
     // One level back the new mesh is where its own motion puts it: nodes whose way had a kink would
     // cost the next step its second order
-    let shapes_before = BodyShapes::at(&problem.bodies, state.time_before())?;
+    let before = &state.shapes.before;
+    let shapes_before = BodyShapes::with(&problem.bodies, state.time_before(), before)?;
     let nodes_before = successor.nodes(&previous_poses, &shapes_before)?;
     let before = new.with_nodes(nodes_before);
     let old = state.mesh_in_frame();
     let old_before = old.with_nodes(state.nodes_before.clone());
     let bodies = |poses, shapes| BodiesAt { poses, shapes };
-    let mut transfer = FieldTransfer::new(problem, &new, &successor);
+    let rest_places = successor.rest_places(&shapes);
+    let mut transfer = FieldTransfer::new(problem, &new, &successor, &rest_places);
     let now = Level {
         name: "present level",
         solution: &state.now,
@@ -97,6 +99,7 @@ struct TransferredLevel<'a, const D: usize> {
 struct FieldTransfer<'a, const D: usize> {
     problem: &'a Problem<D>,
     moving: &'a MovingMesh<D>,
+    rest_places: &'a RestPlaces,
     boundaries: Boundaries,
     tables: Tables<D>,
     /// None where nothing has inertia: the older velocities are first guesses only.
@@ -107,10 +110,15 @@ struct FieldTransfer<'a, const D: usize> {
 
 impl<'a, const D: usize> FieldTransfer<'a, D> {
     /// With the new mesh where the first level has it.
-    fn new(problem: &'a Problem<D>, new: &Mesh<D>, moving: &'a MovingMesh<D>) -> Self {
+    fn new(
+        problem: &'a Problem<D>,
+        new: &Mesh<D>,
+        moving: &'a MovingMesh<D>,
+        rest_places: &'a RestPlaces,
+    ) -> Self {
         let projection = problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new));
         let (boundaries, tables) = (Boundaries::new(new), Tables::new(problem.metric));
-        Self { problem, moving, boundaries, tables, projection, is_placed: true }
+        Self { problem, moving, rest_places, boundaries, tables, projection, is_placed: true }
     }
 
     /// A level on the new mesh.
@@ -122,11 +130,14 @@ impl<'a, const D: usize> FieldTransfer<'a, D> {
             velocity: transfer.quadratic(&level.solution.velocity),
             pressure: transfer.linear(&level.solution.pressure),
             twists: level.solution.twists.clone(),
+            rates: level.solution.rates.clone(),
             pressure_gradient: level.solution.pressure_gradient,
         };
         let values = BoundaryValues {
             bodies: level.bodies,
             twists: &solution.twists,
+            rates: &solution.rates,
+            rest_places: self.rest_places,
             origin: on_mesh(&level.origin),
         };
         impose_boundary_values(

@@ -52,6 +52,17 @@ pub struct Meshed<const D: usize> {
     pub shifts: Vec<Vector3<f64>>,
 }
 
+/// A node on a body with coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RestPlace {
+    /// The node.
+    pub node: NodeId,
+    /// The body.
+    pub body: usize,
+    /// Where its material point is at rest (m).
+    pub place: Vector3<f64>,
+}
+
 /// Poses of bodies that have been moved by whole periods (m).
 pub type PosesByShift<'a> = &'a dyn Fn(&[Vector3<f64>]) -> Vec<Pose>;
 
@@ -77,6 +88,11 @@ pub trait Scene<const D: usize>: Debug + Send + Sync {
         _shapes: &BodyShapes,
     ) -> Option<Vector3<f64>> {
         None
+    }
+
+    /// Where nodes on bodies with coordinates are at rest, in the frames of the bodies.
+    fn rest_places(&self, _shapes: &BodyShapes) -> Vec<RestPlace> {
+        Vec::new()
     }
 
     /// Displacement (m) at a time (s) of a point of a side that moves; `None` for other sides.

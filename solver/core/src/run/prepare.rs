@@ -7,11 +7,11 @@ use super::build::{build_problem, contact_law};
 use super::case_mesh::{CaseMesh, Dimension, InitialMesh};
 use super::measure::Measure;
 use super::resume::SavedState;
-use super::simulation::Simulation;
+use super::simulation::{Simulation, fluid_system};
 use super::start::{check_memory, step_scheme};
 use super::step_control::StepControl;
 use crate::case::Model;
-use crate::coupling::{FluidSystem, Problem, ShapeError};
+use crate::coupling::{Problem, ShapeError};
 use crate::state::State;
 use crate::step::Workspace;
 use crate::timing::{Stage, Timing};
@@ -39,7 +39,7 @@ where
     check_memory(mesh)?;
     let images = |mesh: &Mesh<D>| Dimension::<D>::images(&model.case, mesh);
     let mut measure = Measure::new(model, mesh, &images(mesh))?;
-    let mut simulation = at_rest(model, initial, timing)?;
+    let mut simulation = at_rest(model, initial, timing, |_| Ok(()))?;
     log_recoils(&simulation.problem)?;
     if let Some(saved) = saved {
         saved.restore_into(&model.case, &mut simulation, |problem, reference| {
@@ -64,13 +64,29 @@ pub fn simulation_on<const D: usize>(
 where
     Dimension<D>: CaseMesh<D>,
 {
-    at_rest(model, Dimension::<D>::adopt(model, mesh)?, Timing::default())
+    at_rest(model, Dimension::<D>::adopt(model, mesh)?, Timing::default(), |_| Ok(()))
+}
+
+/// A simulation of a case at rest whose problem is changed before it begins.
+///
+/// # Errors
+/// When the case makes no mesh or problem, or `change` fails.
+pub fn simulation_with<const D: usize>(
+    model: &Model,
+    change: impl FnOnce(&mut Problem<D>) -> Result<(), RunError>,
+) -> Result<Simulation<D>, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    at_rest(model, Dimension::<D>::generate(model)?, Timing::default(), change)
 }
 
 /// Tells what is subtracted from the gaits of the bodies that deform.
 fn log_recoils<const D: usize>(problem: &Problem<D>) -> Result<(), RunError> {
     for body in &problem.bodies {
-        let Some(shape) = &body.shape else { continue };
+        let Some(shape) = body.shape.as_ref().filter(|_| body.flexible().is_none()) else {
+            continue;
+        };
         let motion =
             shape.recoil().map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
         // Of what is asked for while the run goes on it is not known before
@@ -97,21 +113,23 @@ fn at_rest<const D: usize>(
     model: &Model,
     initial: InitialMesh<D>,
     mut timing: Timing,
+    change: impl FnOnce(&mut Problem<D>) -> Result<(), RunError>,
 ) -> Result<Simulation<D>, RunError> {
     let case = &model.case;
     let InitialMesh { mesh, shifts, make_moving } = initial;
-    let problem = build_problem(model, &mesh)?;
+    let mut problem = build_problem(model, &mesh)?;
+    change(&mut problem)?;
     let scheme = step_scheme(case, &problem);
     let state = State::at_rest(&problem, mesh).with_image_shifts(shifts);
     let poses = state.in_mesh(&state.poses);
-    let system = timing.measure(Stage::Assembly, || {
-        FluidSystem::new(&problem, &state.mesh, &poses, scheme.unknown_frame)
-    });
-    tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
     let moving_mesh = model.mesh_moves().then(|| {
         timing.measure(Stage::MeshMotion, || make_moving(model, &problem, &state.mesh, poses))
     });
     let moving_mesh = moving_mesh.transpose()?;
+    let system = timing.measure(Stage::Assembly, || {
+        fluid_system(&problem, &state, moving_mesh.as_ref(), scheme.unknown_frame)
+    })?;
+    tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
     let law = contact_law(model)?;
     let work = Workspace { system, mesh: state.mesh.clone(), timing };
     let mut simulation = Simulation {

@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use super::cycle_report::CycleReport;
 use super::measure::Measure;
+use super::reports::{CycleReport, LoadErrors, StepErrorReport};
 use super::resume::{ResumeError, SavedState};
 use super::simulation::{CellCrossing, Simulation};
 use super::snapshot::{LastState, Observer, Snapshot};
-use super::step_report::{LoadErrors, StepErrorReport};
 use super::watch::{ForceAgreement, Pace, SoundState};
 use super::{RunError, Series};
 use crate::case::{Case, Model, Recording, Steady, TimeSettings, Unsteady};

@@ -6,11 +6,11 @@ use alewife_mesh::interrupt::{self, Heard};
 
 use super::case_mesh::{CaseMesh, Dimension};
 use super::prepare::{Prepared, prepare};
+use super::reports::LoadErrors;
 use super::resume::{ResumeError, SavedState};
 use super::run::{Run, RunSummary, Warned, notify_all};
 use super::simulation::Simulation;
 use super::snapshot::{Borrowed, Observer, Recorded};
-use super::step_report::LoadErrors;
 use super::watch::Pace;
 use super::{RunError, Series};
 use crate::case::{Asked, Model, Recording, TimeSettings, Unsteady};

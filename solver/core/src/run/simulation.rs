@@ -7,7 +7,10 @@ use super::error::RunError;
 use super::step_control::StepControl;
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
-use crate::coupling::{BodyLoads, BodyShapes, FluidSystem, Problem, SurfaceLoads};
+use crate::coupling::{
+    BodiesAt, BodyLoads, BodyShapes, FluidSystem, MeshedBodies, Problem, ShapeError, SolverChoice,
+    SurfaceLoads,
+};
 use crate::motion::{MovingMesh, replace_mesh};
 use crate::state::State;
 use crate::step::{
@@ -67,6 +70,27 @@ pub enum Attempt {
     Made(StepReport),
     /// Time has not advanced, though the mesh may have been replaced; a shorter step may help.
     Rejected(StepError),
+}
+
+/// The linear system of a state on its mesh, with what moves that.
+///
+/// # Errors
+/// When coordinates of a body give it no shape.
+pub(super) fn fluid_system<const D: usize>(
+    problem: &Problem<D>,
+    state: &State<D>,
+    moving: Option<&MovingMesh<D>>,
+    unknown_frame: bool,
+) -> Result<FluidSystem<D>, ShapeError> {
+    let poses = &state.in_mesh(&state.poses);
+    let Some(moving) = moving.filter(|_| problem.n_coordinates() > 0) else {
+        return Ok(FluidSystem::new(problem, &state.mesh, poses, unknown_frame));
+    };
+    let shapes = &BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
+    let rest_places = moving.rest_places(shapes);
+    let bodies = MeshedBodies { at: BodiesAt { poses, shapes }, rest_places };
+    let choice = SolverChoice::default();
+    Ok(FluidSystem::with_bodies(problem, &state.mesh, bodies, unknown_frame, choice))
 }
 
 impl<const D: usize> Simulation<D> {
@@ -159,7 +183,7 @@ impl<const D: usize> Simulation<D> {
         let Self { problem, state, work, moving_mesh: Some(moving), .. } = self else {
             return Ok(());
         };
-        let shapes = BodyShapes::at(&problem.bodies, state.time)?;
+        let shapes = BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
         let reason =
             work.timing.measure(Stage::MeshMotion, || moving.remesh_reason(state, &shapes));
         match reason {
@@ -178,11 +202,10 @@ impl<const D: usize> Simulation<D> {
             .measure(Stage::Mesh, || replace_mesh(problem, state, moving))
             .map_err(|reason| RunError::Remesh { step, time, reason: Box::new(reason) })?;
         tracing::info!(step, time, cells = state.mesh.n_cells(), reason, "remeshed");
-        let poses = state.in_mesh(&state.poses);
         work.mesh = state.mesh.clone();
         work.system = work.timing.measure(Stage::Assembly, || {
-            FluidSystem::new(problem, &state.mesh, &poses, scheme.unknown_frame)
-        });
+            fluid_system(problem, state, Some(moving), scheme.unknown_frame)
+        })?;
         self.is_fresh = true;
         Ok(())
     }

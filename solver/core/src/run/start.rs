@@ -13,19 +13,20 @@ use crate::state::InitialLevels;
 use crate::step::{SteadyFlow, SteadyTask, solve_steady};
 
 impl<const D: usize> Simulation<D> {
-    /// Meshed with straight sides, a sheet has its shape from the beginning.
+    /// Meshed with straight sides, a sheet has its shape from the beginning, and so has a body with coordinates.
     pub(super) fn settle_moving_walls(&mut self) -> Result<(), RunError> {
         let Self { problem, state, work, moving_mesh, .. } = self;
         let Some(moving) = moving_mesh else { return Ok(()) };
+        let poses = state.in_own_frame(problem, &state.poses);
         let mut settled = None;
-        if moving.scene().has_moving_wall() {
+        if moving.scene().has_moving_wall() || problem.n_coordinates() > 0 {
             let shapes = BodyShapes::at(&problem.bodies, 0.0)?;
-            let nodes = moving.nodes(&state.poses, &shapes)?;
+            let nodes = moving.nodes(&poses, &shapes)?;
             work.mesh.nodes.clone_from(&nodes);
             work.system.move_to(problem, &work.mesh);
             settled = Some(nodes);
         }
-        let minimum_gap = moving.gaps().minimum_gap(&state.poses);
+        let minimum_gap = moving.gaps().minimum_gap(&poses);
         state.settle(settled, minimum_gap);
         Ok(())
     }
@@ -67,7 +68,8 @@ impl<const D: usize> Simulation<D> {
         } else {
             self.steady_equations()
         };
-        let settings = Steady { tolerance: 1e-10, max_iterations: 5 };
+        let max_iterations = if self.problem.viscosity.is_newtonian() { 5 } else { SHEAR };
+        let settings = Steady { tolerance: 1e-10, max_iterations };
         let flow = self.solve_at_start(&settings, &equations, false)?;
         self.state.begin(InitialLevels::steady(flow.solution));
         let loads = self.loads(&flow.residual);
@@ -96,6 +98,9 @@ pub(super) fn step_scheme<const D: usize>(case: &Case, problem: &Problem<D>) -> 
     let unknown_frame = problem.frame.is_some() && problem.has_convection && !is_linear;
     StepScheme { method, convection, unknown_frame }
 }
+
+/// Most iterations for the first flow of a fluid whose viscosity depends on the rate of shear.
+const SHEAR: usize = 30;
 
 const GIGABYTE: f64 = 1e9;
 

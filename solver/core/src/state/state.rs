@@ -10,8 +10,10 @@ use super::energy::{EnergyBalance, EnergyRecord};
 use super::energy_supply::{Drives, EnergySupply};
 use super::initial_levels::InitialLevels;
 use super::momentum::{MomentumBalance, MomentumRecord};
-use super::propulsion_history::{PropulsionHistory, PropulsionStep};
+use super::new_level::{NewLevel, TransferredState};
+use super::propulsion_history::PropulsionHistory;
 use super::saved_mesh;
+use super::shape_state::ShapeState;
 use super::step_errors::StepErrors;
 use crate::body::{Pose, Twist, on_mesh};
 use crate::contact::{ContactLoads, MinimumGap};
@@ -64,6 +66,8 @@ pub struct Evolving<const D: usize> {
     pub poses: Vec<Pose>,
     /// Poses of the bodies one step before.
     pub previous_poses: Vec<Pose>,
+    /// Coordinates of bodies that have some.
+    pub shapes: ShapeState,
     /// What is added to the centre of a body for where it is in the mesh (m): whole periods.
     pub image_shifts: Vec<Vector3<f64>>,
     /// Rates of change of the velocities at the nodes (m/s2).
@@ -88,55 +92,16 @@ pub struct Evolving<const D: usize> {
     pub momentum: MomentumBalance,
 }
 
-/// The level a step leads to.
-#[derive(Debug, Clone)]
-pub struct NewLevel<const D: usize> {
-    /// Time (s).
-    pub time: f64,
-    /// Size of the step (s).
-    pub step: f64,
-    /// Fields and rigid velocities.
-    pub solution: Solution<D>,
-    /// Poses of the bodies, in the laboratory.
-    pub poses: Vec<Pose>,
-    /// Positions of the nodes, seen from the frame (m).
-    pub nodes: Vec<Point<D>>,
-    /// Rates of change of the velocities at the nodes (m/s2); `None` leaves those before.
-    pub rates: Option<Vec<Point<D>>>,
-    /// Rates of change of the momenta of the bodies, over their inertia (m/s2, rad/s2).
-    pub accelerations: Vec<Twist>,
-    /// Rates of change of their velocities (m/s2, rad/s2).
-    pub twist_rates: Vec<Twist>,
-    /// Loads of contact, and the smallest gap.
-    pub contact: ContactLoads,
-    /// What each group of bodies did in the step.
-    pub propulsion: Vec<PropulsionStep>,
-}
-
-/// A state on another mesh.
-#[derive(Debug, Clone)]
-pub struct TransferredState<const D: usize> {
-    /// The mesh, seen from the frame.
-    pub mesh: Mesh<D>,
-    /// Positions of its nodes one step before, seen from the frame (m).
-    pub nodes_before: Vec<Point<D>>,
-    /// Fields and rigid velocities at present.
-    pub now: Solution<D>,
-    /// Fields and rigid velocities one step before.
-    pub previous: Solution<D>,
-    /// Rates of change of the velocities at the nodes (m/s2).
-    pub rates: Vec<Point<D>>,
-    /// Whole periods from each body to its image in the mesh (m).
-    pub image_shifts: Vec<Vector3<f64>>,
-}
-
 impl<const D: usize> State<D> {
     /// Everything at rest at time zero.
     #[must_use]
     pub fn at_rest(problem: &Problem<D>, mesh: Mesh<D>) -> Self {
         let n_bodies = problem.bodies.len();
-        let at_rest = Solution::at_rest(&DofLayout::new(&mesh, n_bodies, problem.modes().len()));
-        let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+        let layout = DofLayout::new(&mesh, n_bodies, problem.modes().len());
+        let at_rest = Solution::at_rest(&layout.with_coordinates(problem.n_coordinates()));
+        let mut poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+        let shapes = ShapeState::at_rest(problem.initial_coordinates());
+        problem.follow_coordinates(&mut poses, &shapes.now);
         Self(Evolving {
             step: 0,
             time: 0.0,
@@ -148,6 +113,7 @@ impl<const D: usize> State<D> {
             now: at_rest.clone(),
             previous: at_rest,
             previous_poses: poses.clone(),
+            shapes,
             image_shifts: vec![Vector3::zeros(); n_bodies],
             rates: vec![Point::<D>::zeros(); mesh.n_nodes()],
             accelerations: vec![Twist::default(); n_bodies],
@@ -324,6 +290,8 @@ impl<const D: usize> State<D> {
         }
         own.nodes_before = std::mem::replace(&mut own.nodes, level.nodes);
         own.previous_poses = std::mem::replace(&mut own.poses, level.poses);
+        own.shapes.before = std::mem::replace(&mut own.shapes.now, level.coordinates);
+        own.shapes.accelerations = level.coordinate_accelerations;
         own.previous = std::mem::replace(&mut own.now, level.solution);
         if let Some(rates) = level.rates {
             own.rates = rates;

@@ -50,6 +50,7 @@ fn solution(seed: f64) -> Solution<2> {
         velocity: points(seed),
         pressure: numbers(seed + 1.0).take(3).collect(),
         twists: twists(seed + 2.0),
+        rates: Vec::new(),
         pressure_gradient: Point::<2>::new(seed, -seed),
     }
 }
@@ -112,6 +113,7 @@ fn state() -> State<2> {
         previous: solution(3.0),
         poses: vec![Pose::planar(1.0, 2.0, 0.3)],
         previous_poses: vec![Pose::planar(0.9, 1.9, 0.2)],
+        shapes: crate::state::ShapeState::at_rest(numbers(0.3).take(4).collect()),
         image_shifts: vectors(4.0, 1),
         rates: points(5.0),
         accelerations: twists(6.0),

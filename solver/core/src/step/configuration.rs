@@ -4,16 +4,16 @@ use alewife_mesh::{Mesh, Point};
 
 use super::history::StepHistory;
 use super::newton::FlowEquations;
+use super::placement::Placement;
 use crate::algebra::AffineConstraints;
-use crate::body::Pose;
 use crate::case::Convection as ConvectionChoice;
 use crate::coupling::{Configuration, MeanFlowAt, Problem, RigidBodyEquations, Solution};
 use crate::flow::{Convection, FlowTerms};
 
 /// Mesh and bodies in one iteration for the poses.
 pub(super) struct StepConfiguration<const D: usize> {
-    /// Poses of the bodies, in the laboratory.
-    pub poses: Vec<Pose>,
+    /// Where bodies are.
+    pub placement: Placement,
     /// Positions of the nodes seen from the frame (m).
     pub nodes: Vec<Point<D>>,
     /// Velocity of the nodes seen from the frame (m/s); none where it makes no difference.
@@ -47,9 +47,20 @@ pub(super) struct StepEquations<'a, const D: usize> {
 }
 
 impl<const D: usize> StepEquations<'_, D> {
-    /// Whether one linear system gives the flow.
+    /// Whether one linear system gives flow and bodies.
     pub fn is_linear(&self) -> bool {
-        !(self.convection == ConvectionChoice::Newton && self.problem.has_convection)
+        !self.convects_by_newton() && !self.shears_by_newton() && self.problem.n_coordinates() == 0
+    }
+
+    fn convects_by_newton(&self) -> bool {
+        self.convection == ConvectionChoice::Newton && self.problem.has_convection
+    }
+
+    /// Whether a viscosity that depends on the rate of shear is that of the flow itself: always of a flow without a past.
+    pub fn shears_by_newton(&self) -> bool {
+        let has_past = !self.history.extrapolated.velocity.is_empty();
+        !self.problem.viscosity.is_newtonian()
+            && (self.convection == ConvectionChoice::Newton || !has_past)
     }
 }
 
@@ -58,7 +69,7 @@ impl<const D: usize> FlowEquations<D> for StepEquations<'_, D> {
         let mesh_velocity = &self.configuration.mesh_velocity;
         let mut convecting: Vec<Point<D>> = if !self.problem.has_convection {
             vec![Point::<D>::zeros(); mesh_velocity.len()]
-        } else if self.is_linear() {
+        } else if !self.convects_by_newton() {
             let frame = self.history.frame_velocity;
             self.history.extrapolated.velocity.iter().map(|u| u - frame).collect()
         } else {
@@ -69,16 +80,26 @@ impl<const D: usize> FlowEquations<D> for StepEquations<'_, D> {
         convecting
     }
 
-    fn terms<'a>(&'a self, convecting_velocity: &'a [Point<D>]) -> FlowTerms<'a, D> {
+    fn terms<'a>(
+        &'a self,
+        convecting_velocity: &'a [Point<D>],
+        solution: &'a Solution<D>,
+    ) -> FlowTerms<'a, D> {
         let convection = if convecting_velocity.is_empty() {
             Convection::None
-        } else if self.is_linear() {
+        } else if !self.convects_by_newton() {
             Convection::Oseen
         } else {
             self.problem.newton_convection()
         };
+        // Linearised about the extrapolated strain, or about that of the flow itself: a step of Newton's method from there
+        let sheared = if self.shears_by_newton() {
+            &solution.velocity
+        } else {
+            &self.history.extrapolated.velocity
+        };
         FlowTerms {
-            viscosity: self.problem.viscosity,
+            viscosity: self.problem.viscosity_at(sheared),
             density: self.problem.density,
             rate: self.history.step.bdf.next,
             history: &self.history.derivative,

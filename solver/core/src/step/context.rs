@@ -3,6 +3,7 @@
 use super::configuration::{StepConfiguration, StepEquations};
 use super::error::StepError;
 use super::history::StepHistory;
+use super::placement::Placement;
 use super::stepper::{Step, TimeStepper};
 use crate::body::Pose;
 use crate::contact::{BodyDynamics, CoupledContact, Gaps};
@@ -21,8 +22,8 @@ pub(super) struct StepContext<'a, const D: usize> {
 
 /// What an iteration for the poses starts from.
 pub(super) struct Iterate<const D: usize> {
-    /// Poses of the bodies at the new time, in the laboratory.
-    pub poses: Vec<Pose>,
+    /// Where bodies are at the new time.
+    pub placement: Placement,
     /// Poses in which bodies are expected to be apart.
     pub apart: Vec<Pose>,
     /// First guess of the flow.
@@ -97,7 +98,7 @@ impl<'a, const D: usize> StepContext<'a, D> {
                 rate: history.step.bdf.next,
                 inertia: equations.bodies.iter().map(|body| body.inertia).collect(),
                 resistance: equations.bodies.iter().map(|body| body.resistance).collect(),
-                viscosity: stepper.problem.viscosity,
+                viscosity: stepper.problem.viscosity.zero_shear(),
             },
         })
     }

@@ -6,6 +6,7 @@ use super::configuration::StepConfiguration;
 use super::context::StepContext;
 use super::error::{FlowError, StepError};
 use super::newton::{Flow, flow_residual};
+use super::placement::Placement;
 use super::workspace::Workspace;
 use crate::body::{BodyLoad, LoadedBody, Pose, Twist};
 use crate::contact::{ContactLoads, LoadedFlow};
@@ -74,13 +75,15 @@ impl<const D: usize> LoadedFlow for FlowUnderLoads<'_, D> {
     fn reached(&self) -> Vec<Pose> {
         // The displacement of the frame is no part of the unknowns
         let StepContext { stepper, state, .. } = self.step;
-        let origin = state.origin_at(stepper.problem, &self.configuration.poses);
-        state.in_frame(&origin, &self.step.integrate(self.twists()))
+        let origin = state.origin_at(stepper.problem, &self.configuration.placement.poses);
+        state.in_frame(&origin, &self.step.integrated_poses(self.twists()))
     }
 
     fn poses_have_converged(&self, contact: &ContactLoads) -> bool {
-        let reached = self.step.integrate(self.twists());
-        self.step.stepper.path.has_converged(&self.configuration.poses, &reached, contact)
+        let solved_at = &self.configuration.placement;
+        let poses = self.step.integrated_poses(self.twists());
+        let reached = Placement { poses, ..solved_at.clone() };
+        self.step.stepper.path.has_converged(solved_at, &reached, contact)
     }
 
     fn free_motions(&self, bodies: &[LoadedBody]) -> DMatrix<f64> {
@@ -129,7 +132,7 @@ impl<const D: usize> StepContext<'_, D> {
             system.center_pressure(problem, &mut flow.solution);
             found
         };
-        let (poses, solution) = (&configuration.poses, &flow.solution);
+        let (poses, solution) = (&configuration.placement.poses, &flow.solution);
         let in_mesh = state.in_mesh(poses);
         let surfaces = system.surface_loads(problem, mesh, &in_mesh, solution, &residual);
         let stress = system.surface_stress(problem, mesh, solution);

@@ -1,11 +1,11 @@
 //! The end of a step: loads, error, and the level it leads to, with the mesh where the bodies get to.
 
+use super::accuracy::{acceleration, local_error, pose_errors};
 use super::configuration::StepConfiguration;
-use super::contact_energy::acceleration;
 use super::context::StepContext;
 use super::coupled_flow::CoupledFlow;
 use super::error::StepError;
-use super::error_estimate::{local_error, pose_errors};
+use super::placement::Placement;
 use super::stepper::{StepReport, StepResult, TimeStepper};
 use super::workspace::Workspace;
 use crate::body::{Pose, Twist};
@@ -16,7 +16,7 @@ use crate::state::{Leg, NewLevel, PowerShare, PropulsionStep, StagePoint, State,
 /// What the last iteration of a step has found.
 struct ConvergedStep<const D: usize> {
     /// Where the bodies get to.
-    pub poses: Vec<Pose>,
+    pub reached: Placement,
     pub solution: Solution<D>,
     pub contact: ContactLoads,
 }
@@ -46,21 +46,22 @@ impl<const D: usize> StepContext<'_, D> {
         work: &mut Workspace<D>,
         configuration: &StepConfiguration<D>,
         mut flow: CoupledFlow<D>,
-        reached: Vec<Pose>,
+        reached: Placement,
     ) -> Result<StepResult<D>, StepError> {
         let Self { stepper, state, history, .. } = self;
+        let poses = &reached.poses;
         let loads = self.loads(work, configuration, &mut flow);
         let mut error = local_error(stepper, state, &history.step, &flow.solution);
         if history.step.bdf.is_second_order() {
-            let errors = pose_errors(state, &history.step, &reached);
-            error = error.max(stepper.gap_error(self.gaps(), state, &reached, &errors));
+            let errors = pose_errors(state, &history.step, poses);
+            error = error.max(stepper.gap_error(self.gaps(), state, poses, &errors));
         }
-        let errors = self.step_errors(&flow.solution, &reached);
+        let errors = self.step_errors(&flow.solution, poses);
         let contact = flow
             .contact
             .after(&state.contact, |force, last| history.step.bdf.increment(force, last));
-        let mut contact = stepper.with_minimum_gap(contact, self.gaps(), state, &reached);
-        let energy = self.contact_energy(configuration, &flow.solution.twists, &reached, &contact);
+        let mut contact = stepper.with_minimum_gap(contact, self.gaps(), state, poses);
+        let energy = self.contact_energy(configuration, &flow.solution.twists, poses, &contact);
         contact.energy = energy.stored;
         contact.energy_made = state.contact.energy_made + energy.made;
         let report = StepReport {
@@ -70,7 +71,7 @@ impl<const D: usize> StepContext<'_, D> {
             contact_error: energy.error,
             errors,
         };
-        let end = ConvergedStep { contact, solution: flow.solution, poses: reached };
+        let end = ConvergedStep { contact, solution: flow.solution, reached };
         let level = self.new_level(work, configuration, end, &loads.propulsion)?;
         Ok(StepResult { level, report })
     }
@@ -87,10 +88,10 @@ impl<const D: usize> StepContext<'_, D> {
         propulsion: &[PropulsionPower],
     ) -> Result<NewLevel<D>, StepError> {
         let Self { stepper, state, history, .. } = self;
-        let ConvergedStep { poses, solution, contact } = end;
+        let ConvergedStep { reached, solution, contact } = end;
+        let Placement { poses, coordinates, shapes } = reached;
         let bdf = &history.step.bdf;
-        let nodes =
-            stepper.path.move_mesh(work, stepper.problem, state, &poses, &history.shapes)?;
+        let nodes = stepper.path.move_mesh(work, stepper.problem, state, &poses, &shapes)?;
         let rates = solution.velocity.iter().zip(&history.derivative);
         let twists = solution.twists.iter().zip(&configuration.bodies.bodies);
         let older = state.now.twists.iter().zip(&state.previous.twists);
@@ -105,6 +106,8 @@ impl<const D: usize> StepContext<'_, D> {
             rates: Some(rates.map(|(new, older)| new * bdf.next + older).collect()),
             accelerations: twists.map(|(twist, body)| acceleration(bdf, twist, body)).collect(),
             twist_rates: twist_rates.collect(),
+            coordinate_accelerations: history.accelerations_with(state, &solution.rates),
+            coordinates,
             nodes,
             poses,
             contact,

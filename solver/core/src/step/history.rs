@@ -1,14 +1,19 @@
 //! `StepHistory`: the older levels of a step, with what follows from them.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use alewife_mesh::Point;
+use nalgebra::DVector;
 
 use super::error::StepError;
 use super::stepper::{Step, TimeStepper};
 use crate::body::{Inertia, Pose, RigidVector, Twist, carried_velocity};
 use crate::coupling::{
-    BodyShapes, PosesByVelocity, Problem, RigidBody, RigidBodyEquations, Solution,
+    BodyShapes, FlexibleEquation, PosesByVelocity, Problem, RigidBody, RigidBodyEquations, Solution,
 };
 use crate::state::State;
+use crate::structure::Held;
 use crate::time::Bdf;
 
 /// Part of a step by which rates at its ends are evaluated inside it: those that jump there have two.
@@ -18,7 +23,7 @@ pub(super) const INSIDE: f64 = 1e-9;
 pub struct StepHistory<const D: usize> {
     /// The step.
     pub step: Step,
-    /// The bodies at the new time.
+    /// The bodies at the new time, those with coordinates as these are extrapolated.
     pub shapes: BodyShapes,
     /// The bodies just before the new time, where rates may jump at it.
     before_jump: Option<BodyShapes>,
@@ -30,6 +35,12 @@ pub struct StepHistory<const D: usize> {
     pub frame_velocity: Point<D>,
     /// The constant part of the update of poses: those of bodies without velocity at the new time.
     unmoved: Vec<Pose>,
+    /// The constant part of the update of coordinates.
+    unmoved_coordinates: Vec<f64>,
+    /// Coordinates that are given at the new time.
+    held: Vec<Held>,
+    /// Older part of the rates of change of their rates.
+    coordinate_derivative: Vec<f64>,
     /// The bodies at the present level and the one before; none of an instantaneous flow.
     older: Option<[OlderBodies; 2]>,
 }
@@ -76,19 +87,29 @@ impl<const D: usize> StepHistory<D> {
             .is_some()
             .then(|| BodyShapes::at(&problem.bodies, time - INSIDE * bdf.step))
             .transpose()?;
+        let extrapolated = extrapolate(state, &step);
+        let held = problem.held_coordinates(time);
+        let inertial = f64::from(u8::from(problem.has_inertia));
+        let coordinates = integrate_coordinates(state, &step, &held, &extrapolated.rates);
+        let rates = state.now.rates.iter().zip(&state.previous.rates);
         let older = |time: f64, poses: &[Pose], twists: &[Twist]| {
             OlderBodies::new(problem, time, poses, twists)
         };
         Ok(Self {
-            shapes: BodyShapes::at(&problem.bodies, time)?,
+            shapes: BodyShapes::with(&problem.bodies, time, &coordinates)?,
             before_jump,
             derivative: levels().map(|(now, before)| bdf.history(*now, *before)).collect(),
-            extrapolated: extrapolate(state, &step),
+            extrapolated,
             frame_velocity: bdf.extrapolate(
                 problem.frame_velocity(&state.now.twists),
                 problem.frame_velocity(&state.previous.twists),
             ),
             unmoved: stepper.unmoved_poses(state, &step),
+            unmoved_coordinates: unmoved_coordinates(state, &step, &held),
+            held,
+            coordinate_derivative: rates
+                .map(|(now, before)| inertial * bdf.history(*now, *before))
+                .collect(),
             older: Some([
                 older(state.time, &state.poses, &state.now.twists)?,
                 older(state.time_before(), &state.previous_poses, &state.previous.twists)?,
@@ -119,10 +140,14 @@ impl<const D: usize> StepHistory<D> {
                 velocity: Vec::new(),
                 pressure: Vec::new(),
                 twists: Vec::new(),
+                rates: Vec::new(),
                 pressure_gradient: Point::<D>::zeros(),
             },
             frame_velocity: Point::<D>::zeros(),
             unmoved: poses.to_vec(),
+            unmoved_coordinates: Vec::new(),
+            held: Vec::new(),
+            coordinate_derivative: Vec::new(),
             older: None,
         })
     }
@@ -152,11 +177,70 @@ impl<const D: usize> StepHistory<D> {
             });
             equation.history = bdf.history(now, before);
         }
+        equations.flexible = self.flexible_equations(problem);
         let unmoved = &self.unmoved;
         let reached = PosesByVelocity { unmoved, expected: poses, coefficient: 1.0 / bdf.next };
         equations.add_loads(problem, time, reached);
         equations
     }
+}
+
+impl<const D: usize> StepHistory<D> {
+    /// The equations of the coordinates of bodies at the new time.
+    fn flexible_equations(&self, problem: &Problem<D>) -> Vec<FlexibleEquation> {
+        let Step { time, bdf, .. } = self.step;
+        let bodies = problem.bodies.iter().zip(problem.coordinates());
+        let equation = |(body, own): (&RigidBody, Range<usize>)| {
+            Some(FlexibleEquation {
+                first: own.start,
+                body: Arc::clone(body.flexible()?),
+                rate: if problem.has_inertia { bdf.next } else { 0.0 },
+                history: DVector::from_column_slice(&self.coordinate_derivative[own.clone()]),
+                unmoved: DVector::from_column_slice(&self.unmoved_coordinates[own]),
+                coefficient: 1.0 / bdf.next,
+                time,
+            })
+        };
+        bodies.filter_map(equation).collect()
+    }
+
+    /// Coordinates at the new time with these rates there.
+    pub fn coordinates_with(&self, state: &State<D>, rates: &[f64]) -> Vec<f64> {
+        integrate_coordinates(state, &self.step, &self.held, rates)
+    }
+
+    /// Rates of change of these rates of coordinates at the new time.
+    pub fn accelerations_with(&self, state: &State<D>, rates: &[f64]) -> Vec<f64> {
+        let levels = state.now.rates.iter().zip(&state.previous.rates);
+        let rate =
+            |(new, (now, before)): (&f64, (&f64, &f64))| self.step.bdf.rate(*new, *now, *before);
+        rates.iter().zip(levels).map(rate).collect()
+    }
+}
+
+/// Coordinates of all bodies at the new time with these rates there, and those that are given.
+fn integrate_coordinates<const D: usize>(
+    state: &State<D>,
+    step: &Step,
+    held: &[Held],
+    rates: &[f64],
+) -> Vec<f64> {
+    let levels = state.shapes.now.iter().zip(&state.shapes.before);
+    let integrated =
+        levels.zip(rates).map(|((now, before), rate)| step.bdf.integrate(*rate, *now, *before));
+    let mut coordinates: Vec<f64> = integrated.collect();
+    held.iter().for_each(|held| coordinates[held.coordinate] = held.value);
+    coordinates
+}
+
+/// Coordinates from which the rates at the new time lead there.
+fn unmoved_coordinates<const D: usize>(state: &State<D>, step: &Step, held: &[Held]) -> Vec<f64> {
+    let at_rest = vec![0.0; state.shapes.now.len()];
+    let mut unmoved = integrate_coordinates(state, step, held, &at_rest);
+    for Held { coordinate, value, rate } in held {
+        unmoved[*coordinate] = value - rate / step.bdf.next;
+    }
+    unmoved
 }
 
 /// All unknowns extrapolated to the new time: nearer to the new level than the present one, so that
@@ -166,6 +250,7 @@ fn extrapolate<const D: usize>(state: &State<D>, step: &Step) -> Solution<D> {
     let velocities = now.velocity.iter().zip(&previous.velocity);
     let pressures = now.pressure.iter().zip(&previous.pressure);
     let twists = now.twists.iter().zip(&previous.twists);
+    let rates = now.rates.iter().zip(&previous.rates);
     Solution {
         velocity: velocities.map(|(now, before)| bdf.extrapolate(*now, *before)).collect(),
         pressure: pressures.map(|(now, before)| bdf.extrapolate(*now, *before)).collect(),
@@ -174,6 +259,7 @@ fn extrapolate<const D: usize>(state: &State<D>, step: &Step) -> Solution<D> {
                 Twist::from_vector(&bdf.extrapolate(now.to_vector(), before.to_vector()))
             })
             .collect(),
+        rates: rates.map(|(now, before)| bdf.extrapolate(*now, *before)).collect(),
         pressure_gradient: bdf.extrapolate(now.pressure_gradient, previous.pressure_gradient),
     }
 }

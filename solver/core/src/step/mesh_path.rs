@@ -3,6 +3,7 @@
 use alewife_mesh::{NodeId, Point};
 
 use super::error::StepError;
+use super::placement::Placement;
 use super::workspace::Workspace;
 use crate::body::{Pose, on_mesh};
 use crate::contact::ContactLoads;
@@ -103,17 +104,26 @@ impl<'a, const D: usize> MeshPath<'a, D> {
         })
     }
 
+    /// How far bodies are at most from where the flow was solved, over the shortest edges on them.
+    pub(super) fn misplacement(&self, solved_at: &Placement, reached: &Placement) -> f64 {
+        let Some(moving) = self.moving_mesh() else { return 0.0 };
+        let of_poses = moving.misplacement(&solved_at.poses, &reached.poses);
+        of_poses.max(moving.misshape([&solved_at.shapes, &reached.shapes]))
+    }
+
     /// Whether bodies get to where the flow was solved for, with these loads of contact: the fixed-point
     /// iteration for the poses ends there.
     pub(super) fn has_converged(
         &self,
-        solved_at: &[Pose],
-        reached: &[Pose],
+        solved_at: &Placement,
+        reached: &Placement,
         contact: &ContactLoads,
     ) -> bool {
-        let Some(moving) = self.moving_mesh() else { return true };
+        if self.moving_mesh().is_none() {
+            return true;
+        }
         let has_contact = !contact.contacts.is_empty();
         let tolerance = if has_contact { TOLERANCE_IN_CONTACT } else { TOLERANCE };
-        moving.misplacement(solved_at, reached) <= tolerance
+        self.misplacement(solved_at, reached) <= tolerance
     }
 }

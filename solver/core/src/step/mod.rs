@@ -3,29 +3,28 @@
 //! `step.rs` is the step by backward differences; `explicit/` the one by stages without inertia; `newton/` the equations of
 //! the flow on one configuration, steady or in a step.
 
+mod accuracy;
 mod configuration;
-mod contact_energy;
 mod context;
 mod coupled_flow;
 mod error;
-mod error_estimate;
 mod explicit;
 mod finish;
 mod history;
 mod mesh_path;
 mod newton;
 mod place;
+mod placement;
 mod predict;
 mod solve;
 #[expect(clippy::module_inception, reason = "the step itself is what the room is named after")]
 mod step;
-mod step_errors;
 mod stepper;
 mod workspace;
 
+pub use accuracy::error_of_second_difference;
 pub use error::{FlowError, StepError, at_step};
 pub use mesh_path::{MeshPath, NodePath};
 pub use newton::{SteadyFailure, SteadyFlow, SteadyTask, solve_steady};
-pub use step_errors::error_of_second_difference;
 pub use stepper::{Step, StepReport, StepResult, StopRequest, TimeStepper};
 pub use workspace::Workspace;

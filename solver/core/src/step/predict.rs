@@ -1,12 +1,21 @@
 //! Where bodies get to: velocities extrapolated, contact expected, and poses integrated from velocities.
 
 use super::context::{Guess, Iterate, StepContext};
+use super::error::StepError;
 use super::mesh_path::MeshPath;
+use super::placement::Placement;
 use super::stepper::{Step, TimeStepper};
 use super::workspace::Workspace;
 use crate::body::{Mode, Pose, RigidVector, Twist};
-use crate::contact::ContactPrediction;
+use crate::contact::{ContactLoads, ContactPrediction};
 use crate::state::State;
+
+/// Difference of the turns of a magnet at convergence (rad).
+const TURN_TOLERANCE: f64 = 1e-3;
+
+/// Turn of a magnet in a step that is predicted at most (rad): from further on the iteration would lead to the field by
+/// another number of whole turns.
+const MAX_PREDICTED_TURN: f64 = 0.5;
 
 impl<const D: usize> TimeStepper<'_, D> {
     /// Whether a body goes where one of its velocities takes it: it stays where the mesh is that does
@@ -45,16 +54,43 @@ impl<const D: usize> TimeStepper<'_, D> {
 }
 
 impl<const D: usize> StepContext<'_, D> {
-    /// Poses and flow at the new time, extrapolated, with contact as it is expected there.
-    pub fn predict(&self, work: &Workspace<D>) -> Iterate<D> {
+    /// Bodies and flow at the new time, extrapolated, with contact as it is expected there.
+    ///
+    /// # Errors
+    /// When a body has no shape there.
+    pub fn predict(&self, work: &Workspace<D>) -> Result<Iterate<D>, StepError> {
         let twists = self.extrapolated_twists();
-        let poses = self.integrate(&twists);
+        let poses = self.integrated_poses(&twists);
         let in_contact = self.predict_contact(work, &twists, &poses);
-        Iterate {
-            poses: in_contact.map_or(poses, |twists| self.integrate(&twists)),
+        let poses = in_contact.map_or(poses, |twists| self.integrated_poses(&twists));
+        let poses = self.with_small_turns_of_magnets(poses);
+        let history = &self.history;
+        let coordinates = history.coordinates_with(self.state, &history.extrapolated.rates);
+        Ok(Iterate {
+            placement: self.placement(poses, coordinates)?,
             apart: self.state.poses.clone(),
-            guess: Guess::new(self.history.extrapolated.clone()),
+            guess: Guess::new(history.extrapolated.clone()),
+        })
+    }
+
+    /// Predicted poses with smaller turns of those bodies that fields turn and that are predicted to turn far.
+    fn with_small_turns_of_magnets(&self, mut poses: Vec<Pose>) -> Vec<Pose> {
+        let Self { stepper: TimeStepper { problem, .. }, state, history, .. } = self;
+        let mut is_changed = false;
+        for (body, pose) in poses.iter_mut().enumerate() {
+            let now = &state.poses[body];
+            let displacement = pose.displacement_from(now);
+            let turn = displacement.fixed_rows::<3>(3).norm();
+            if problem.bodies[body].magnet.is_some() && turn > MAX_PREDICTED_TURN {
+                let smaller = now.displaced(&(displacement * (MAX_PREDICTED_TURN / turn)));
+                pose.orientation = smaller.orientation;
+                is_changed = true;
+            }
         }
+        if is_changed {
+            problem.apply_joints(&mut poses, history.step.time);
+        }
+        poses
     }
 
     /// Velocities at the new time with contact as it is expected, where there may be any.
@@ -83,7 +119,7 @@ impl<const D: usize> StepContext<'_, D> {
     /// nothing of what is in the way.
     pub fn keep_gaps_open(&self, iterate: &mut Iterate<D>) {
         let Some(gaps) = self.gaps() else { return };
-        let Iterate { poses, apart, .. } = iterate;
+        let Iterate { placement: Placement { poses, .. }, apart, .. } = iterate;
         let between = |part: f64| -> Vec<Pose> {
             let pairs = apart.iter().zip(&*poses);
             pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect()
@@ -99,6 +135,27 @@ impl<const D: usize> StepContext<'_, D> {
         if part < 1.0 {
             *poses = between(part);
         }
+    }
+
+    /// Whether bodies get to where the flow was solved for, with these loads of contact: the fixed-point iteration
+    /// ends there.
+    pub fn has_converged(
+        &self,
+        solved_at: &Placement,
+        reached: &Placement,
+        contact: &ContactLoads,
+    ) -> bool {
+        self.stepper.path.has_converged(solved_at, reached, contact)
+            && self.magnets_have_turned(&solved_at.poses, &reached.poses)
+    }
+
+    /// Whether bodies with a magnetic moment are turned as they were for the flow that was solved: where they are
+    /// round, no mesh tells.
+    fn magnets_have_turned(&self, solved_at: &[Pose], reached: &[Pose]) -> bool {
+        let bodies = self.stepper.problem.bodies.iter().zip(solved_at.iter().zip(reached));
+        bodies.filter(|(body, _)| body.magnet.is_some()).all(|(_, (solved, reached))| {
+            reached.displacement_from(solved).fixed_rows::<3>(3).norm() <= TURN_TOLERANCE
+        })
     }
 
     /// Velocities at the new time, given ones as they are then and the others extrapolated.
@@ -119,7 +176,7 @@ impl<const D: usize> StepContext<'_, D> {
     }
 
     /// Poses at the new time of bodies with these velocities there.
-    pub fn integrate(&self, twists: &[Twist]) -> Vec<Pose> {
+    pub fn integrated_poses(&self, twists: &[Twist]) -> Vec<Pose> {
         let step = &self.history.step;
         let mut poses = self.stepper.integrate_apart(self.state, step, twists);
         self.stepper.problem.apply_joints(&mut poses, step.time);

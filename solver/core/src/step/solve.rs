@@ -5,8 +5,8 @@ use super::context::{Guess, Iterate, StepContext};
 use super::coupled_flow::{CoupledFlow, FlowUnderLoads};
 use super::error::StepError;
 use super::newton::{Criterion, Flow, newton};
+use super::placement::{Passes, Placement};
 use super::workspace::Workspace;
-use crate::body::Pose;
 use crate::contact::{ByMobility, ByQuasiNewton, ContactLoads, CoupledSolver};
 
 impl<const D: usize> StepContext<'_, D> {
@@ -30,7 +30,7 @@ impl<const D: usize> StepContext<'_, D> {
         method: &mut dyn CoupledSolver<StepError>,
         guess: Guess<D>,
     ) -> Result<CoupledFlow<D>, StepError> {
-        let contact = self.contact_at(&configuration.poses, &configuration.bodies);
+        let contact = self.contact_at(&configuration.placement.poses, &configuration.bodies);
         let first = contact.as_ref().and_then(|contact| method.first_loads(contact));
         if let Some(loads) = &first {
             configuration.bodies.add_external(&loads.wrenches);
@@ -64,20 +64,29 @@ impl<const D: usize> StepContext<'_, D> {
         let Workspace { system, mesh, timing } = work;
         let at = configuration.system(self.stepper.problem, mesh);
         let start = system.constrained(at.constraints, &guess.solution);
-        let criterion = Criterion::of_step(equations.is_linear(), guess.scale, has_contact);
+        let criterion = Criterion {
+            is_damped: equations.shears_by_newton(),
+            ..Criterion::of_step(equations.is_linear(), guess.scale, has_contact)
+        };
         newton(system, timing, &at, &equations, &criterion, start)
             .map_err(|failure| failure.in_step(&self.history.step).into())
     }
 
     /// What the next iteration for the poses starts from.
+    ///
+    /// # Errors
+    /// When coordinates go away from a solution, or give a body no shape.
     pub fn iterate_again(
         &self,
         configuration: StepConfiguration<D>,
         flow: CoupledFlow<D>,
-        reached: Vec<Pose>,
-    ) -> Iterate<D> {
+        reached: Placement,
+        passes: &mut Passes,
+    ) -> Result<Iterate<D>, StepError> {
         let CoupledFlow { solution, scale, n_systems, .. } = flow;
         let guess = Guess { solution, scale: Some(scale), n_systems };
-        Iterate { poses: reached, apart: configuration.poses, guess }
+        let solved_at = configuration.placement;
+        let placement = self.next_placement(&solved_at, reached, passes)?;
+        Ok(Iterate { placement, apart: solved_at.poses, guess })
     }
 }

@@ -12,6 +12,7 @@
 
 use super::context::StepContext;
 use super::error::StepError;
+use super::placement::Passes;
 use super::stepper::{StepResult, TimeStepper};
 use super::workspace::Workspace;
 use crate::state::State;
@@ -34,17 +35,18 @@ impl<const D: usize> TimeStepper<'_, D> {
     ) -> Result<StepResult<D>, StepError> {
         let step = StepContext::new(*self, state, bdf)?;
         let mut contact = step.contact_method(work);
-        let mut iterate = step.predict(work);
+        let mut passes = Passes::default();
+        let mut iterate = step.predict(work)?;
         for _ in 0..MAX_POSE_ITERATIONS {
             self.check_stop(state)?;
             step.keep_gaps_open(&mut iterate);
-            let mut configuration = step.place(work, iterate.poses)?;
+            let mut configuration = step.place(work, iterate.placement)?;
             let flow = step.solve(work, &mut configuration, contact.as_mut(), iterate.guess)?;
-            let reached = step.integrate(&flow.solution.twists);
-            if self.path.has_converged(&configuration.poses, &reached, &flow.contact) {
+            let reached = step.integrate(&flow.solution)?;
+            if step.has_converged(&configuration.placement, &reached, &flow.contact) {
                 return step.finish(work, &configuration, flow, reached);
             }
-            iterate = step.iterate_again(configuration, flow, reached);
+            iterate = step.iterate_again(configuration, flow, reached, &mut passes)?;
         }
         Err(StepError::PosesNotConverged { iterations: MAX_POSE_ITERATIONS })
     }

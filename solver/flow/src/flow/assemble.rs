@@ -53,18 +53,24 @@ impl<const D: usize> Assembly<D> {
         Self { tables, kernel, folds, open_sides, layout }
     }
 
-    /// The unknowns of the matrix of each cell.
+    /// The unknowns of the matrix of each cell, then those of each body that couple with each other.
     #[must_use]
-    pub fn cell_unknowns(&self, constraints: &AffineConstraints) -> CellUnknowns {
-        self.folds.unknowns(constraints)
+    pub fn cell_unknowns(
+        &self,
+        constraints: &AffineConstraints,
+        bodies: &[Vec<u32>],
+    ) -> CellUnknowns {
+        let mut unknowns = self.folds.unknowns(constraints);
+        bodies.iter().for_each(|body| unknowns.push(body));
+        unknowns
     }
 
-    /// Where the matrices of cells go in one by compressed columns.
+    /// Where the matrices of cells go in one by compressed columns, with room for what couples unknowns of bodies.
     #[must_use]
-    pub fn maps(&self, constraints: &AffineConstraints) -> CellMaps {
+    pub fn maps(&self, constraints: &AffineConstraints, bodies: &[Vec<u32>]) -> CellMaps {
         let is_pressure = pressure_unknowns(&self.layout, constraints);
         let couples = |row: usize, column: usize| !(is_pressure[row] && is_pressure[column]);
-        CellMaps::new(&self.cell_unknowns(constraints), couples)
+        CellMaps::new(&self.cell_unknowns(constraints, bodies), couples)
     }
 
     /// Basis tables.

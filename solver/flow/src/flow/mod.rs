@@ -2,6 +2,7 @@
 
 mod assemble;
 mod kernel;
+mod local_viscosity;
 mod nodal;
 mod open_side;
 mod parallel;
@@ -9,8 +10,11 @@ mod taylor_hood;
 mod terms;
 #[cfg(test)]
 mod tests;
+mod viscosity;
 
 pub use assemble::{Assembly, assemble, pressure_unknowns, residual};
+pub use local_viscosity::{LocalViscosity, PointViscosity, ViscosityTerm, squared_shear};
 pub use nodal::{nodal_pressure, nodal_vorticity};
 pub use parallel::{for_each_cell, integrate_basis};
 pub use terms::{BodyForce, Convection, Fields, FlowTerms};
+pub use viscosity::{Plateaus, Viscosity, ViscosityAtRate, YieldLaw};

@@ -5,6 +5,8 @@
 
 use alewife_mesh::Point;
 
+use super::local_viscosity::ViscosityTerm;
+
 /// A force per unit volume as a function of position (N/m3), for manufactured solutions.
 pub type BodyForce<'a, const D: usize> = &'a (dyn Fn(&Point<D>) -> Point<D> + Sync);
 
@@ -26,7 +28,7 @@ pub enum Convection {
 #[derive(Clone, Copy)]
 pub struct FlowTerms<'a, const D: usize> {
     /// Dynamic viscosity (Pa s).
-    pub viscosity: f64,
+    pub viscosity: ViscosityTerm<'a, D>,
     /// Density (kg/m3), 0 without inertia.
     pub density: f64,
     /// Factor a0 of the new velocity in its time derivative (1/s), 0 when steady.

@@ -1,6 +1,7 @@
 //! Tests of element terms and assembly, in the plane, about an axis and in space.
 
 mod setting;
+mod shear;
 
 use std::sync::Arc;
 
@@ -224,6 +225,7 @@ fn power_by_points<const D: usize>(
     terms: &FlowTerms<'_, D>,
     fields: &Fields<'_, D>,
 ) -> f64 {
+    let viscosity = terms.viscosity.constant().expect("the fluid is Newtonian");
     let mut power = 0.0;
     let mut workspace = CellValues::default();
     for cell in setting.mesh.cell_ids() {
@@ -244,7 +246,7 @@ fn power_by_points<const D: usize>(
             let change = velocity * terms.rate + history + gradient * convecting;
             power += at.dx
                 * (terms.density * change.dot(&velocity)
-                    + 2.0 * terms.viscosity * (strain.norm_squared() + stretch * stretch)
+                    + 2.0 * viscosity * (strain.norm_squared() + stretch * stretch)
                     - pressure * (gradient.trace() + stretch));
         });
     }

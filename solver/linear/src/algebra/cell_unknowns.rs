@@ -23,6 +23,12 @@ pub struct CellUnknowns {
 }
 
 impl CellUnknowns {
+    /// Adds unknowns that couple with each other as those of a cell do, without one.
+    pub fn push(&mut self, unknowns: &[u32]) {
+        self.unknowns.extend(unknowns);
+        self.offsets.push(self.unknowns.len());
+    }
+
     /// Number of unknowns of all cells together.
     pub(super) fn n(&self) -> usize {
         self.n

@@ -64,7 +64,7 @@ where
     Ok(text.trim_end().to_owned())
 }
 
-/// A line of what is told.
+/// A line of what is reported.
 struct Line {
     name: &'static str,
     text: String,
@@ -107,10 +107,10 @@ fn unsteady<const D: usize>(
         Some(Ok(step)) => step,
         Some(Err(error)) => {
             let size = significant(settings.step);
-            let told = format!("not known: a step of {size} is not made in one ({error})");
+            let reported = format!("not known: a step of {size} is not made in one ({error})");
             return vec![Line {
                 name: "CPU time",
-                text: format!("{told}; a run tries shorter ones"),
+                text: format!("{reported}; a run tries shorter ones"),
             }];
         }
         None => return Vec::new(),

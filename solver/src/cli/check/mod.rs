@@ -12,7 +12,7 @@ use crate::case::{
 };
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::facts::{facts, one_line};
-use crate::cli::read::{CheckedCase, read_and_check, tell};
+use crate::cli::read::{CheckedCase, print_warnings, read_and_check};
 use crate::cli::style::{self, Ink, on_stdout, say};
 use crate::cli::sweep::check_points;
 use crate::observer::reset_peak_memory;
@@ -101,7 +101,7 @@ where
         say(&format!("  {line}"));
     }
     if let Some(warning) = long_steps(file, &quality) {
-        tell(&[warning]);
+        print_warnings(&[warning]);
     }
     if depth >= Depth::Step {
         let title = on_stdout(Ink::Bold, "cost, by one step that was made");
@@ -137,7 +137,7 @@ fn check_sweep(argument: &str) -> Result<(), Failure> {
     let n = sweep.n_points();
     let warnings = check_points(&sweep, 0..n)?;
     say(&format!("\nsweep of {n} points over {}: all are valid", sweep.keys().join(", ")));
-    tell(&warnings);
+    print_warnings(&warnings);
     Ok(())
 }
 
@@ -210,7 +210,7 @@ fn cell_numbers<const D: usize>(model: &Model, quality: &Quality<D>) -> Vec<Stri
     let speed = model.expected_speed().filter(|_| case.fluid.model == FlowModel::NavierStokes);
     let Some(speed) = speed else { return Vec::new() };
     let at = format!("at the speed {}", significant(speed));
-    let reynolds = case.fluid.density * speed * quality.longest_edge / case.fluid.viscosity;
+    let reynolds = case.fluid.density * speed * quality.longest_edge / case.reference_viscosity();
     let mut lines =
         vec![format!("cell Reynolds    up to {}, {at} in the longest cell", significant(reynolds))];
     if let TimeSettings::Unsteady(time) = &case.time {

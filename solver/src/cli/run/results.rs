@@ -1,4 +1,4 @@
-//! What a run has come to, as it is told on the terminal.
+//! What a run has come to, as it is reported on the terminal.
 
 use crate::case::{Model, significant};
 use crate::cli::style::{Ink, on_stdout, say};
@@ -7,7 +7,7 @@ use crate::run::RunSummary;
 use crate::validation::{Comparison, Verdict, comparison_table};
 
 /// Prints what a run warned of, however little it says otherwise.
-pub fn tell_warnings() {
+pub fn print_run_warnings() {
     let all = warnings();
     let number = match all.len() {
         0 => return,
@@ -19,7 +19,7 @@ pub fn tell_warnings() {
 }
 
 /// Prints by how much the flow crosses cells at most, for a flow with convection.
-pub fn tell_cell_numbers(outcome: &RunSummary) {
+pub fn print_cell_numbers(outcome: &RunSummary) {
     let most = |name: &str| {
         let column = outcome.series.column(name)?;
         Some(column.into_iter().fold(0.0, f64::max))
@@ -34,7 +34,7 @@ pub fn tell_cell_numbers(outcome: &RunSummary) {
 }
 
 /// Prints what the steps of a run leave, as far as that is known.
-pub fn tell_step_errors(outcome: &RunSummary) {
+pub fn print_step_errors(outcome: &RunSummary) {
     let Some(errors) = outcome.step_errors else { return };
     let parts = [("velocity", errors.velocity), ("ways", errors.ways), ("forces", errors.loads)];
     let known = parts.into_iter().filter_map(|(name, part)| Some((name, part?)));
@@ -46,7 +46,7 @@ pub fn tell_step_errors(outcome: &RunSummary) {
 }
 
 /// Prints how the bodies ended, for a case without references.
-pub fn tell_last_values(model: &Model, outcome: &RunSummary) {
+pub fn print_last_values(model: &Model, outcome: &RunSummary) {
     let Some(last) = outcome.series.rows.last() else { return };
     // Of the many bodies of a swimmer only what they do together.
     let is_alone = |body: usize| {

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 
 use super::results::{
-    print_comparisons, tell_cell_numbers, tell_last_values, tell_step_errors, tell_warnings,
+    print_cell_numbers, print_comparisons, print_last_values, print_run_warnings, print_step_errors,
 };
 use crate::case::{CaseFile, TimeSettings, WallTime};
 use crate::cli::complete;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::read::{CheckedCase, Settings, read_and_check, tell};
+use crate::cli::read::{CheckedCase, Settings, print_warnings, read_and_check};
 use crate::cli::style::say;
 use crate::runner::{self, Finished, Outcome, RunPlan, Stopped};
 use crate::timing::cpu_seconds;
@@ -132,7 +132,7 @@ impl Options {
 /// Runs a case.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let CheckedCase { file, warnings } = read_and_check(&options.case, &options.settings.set)?;
-    tell(&warnings);
+    print_warnings(&warnings);
     let plan = RunPlan { warnings, ..options.plan(file) };
     run_plan(&plan, &format!("it continues with\n  {}", options.command()))
 }
@@ -141,7 +141,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 pub fn run_plan(plan: &RunPlan, remedy: &str) -> Result<Exit, Failure> {
     let exit = runner::run(plan).and_then(|outcome| report(plan, outcome, remedy));
     // However a run ends, and last
-    tell_warnings();
+    print_run_warnings();
     exit
 }
 
@@ -158,17 +158,17 @@ fn report(plan: &RunPlan, outcome: Outcome, remedy: &str) -> Result<Exit, Failur
         Outcome::Finished(finished) => {
             print_comparisons(&finished.comparisons);
             if finished.comparisons.is_empty() {
-                tell_last_values(&plan.file.model, &finished.summary);
+                print_last_values(&plan.file.model, &finished.summary);
             }
             tell_cost(plan, &finished);
-            tell_cell_numbers(&finished.summary);
-            tell_step_errors(&finished.summary);
+            print_cell_numbers(&finished.summary);
+            print_step_errors(&finished.summary);
         }
     }
     Ok(Exit::Done)
 }
 
-/// Tells what a run has cost, and where it is.
+/// Reports what a run has cost, and where it is.
 fn tell_cost(plan: &RunPlan, finished: &Finished) {
     let Finished { summary, steps_before, wall, .. } = finished;
     let seconds = cpu_seconds();

@@ -9,7 +9,7 @@ use super::run_options::Options;
 use super::swept::directory_of;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::parent;
-use crate::cli::read::tell;
+use crate::cli::read::print_warnings;
 use crate::cli::run::run_plan;
 use crate::cli::style::{complain, say};
 use crate::observer::{LockError, RunDirectory, RunDirectoryError, RunLock};
@@ -29,7 +29,7 @@ pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
     }
     let warnings = check_points(&sweep, index..index + 1)?;
     if options.parent.is_none() {
-        tell(&warnings);
+        print_warnings(&warnings);
     }
     let file = sweep.case(index)?;
     let first = if index == 0 { file.clone() } else { sweep.case(0)? };

@@ -21,7 +21,7 @@ pub struct Options {
     json: bool,
 }
 
-/// Tells where the points of a sweep stand.
+/// Reports where the points of a sweep stand.
 pub fn status(options: &Options) -> Result<Exit, Failure> {
     let directory = SweepDirectory::open(&options.directory)?;
     let stands: Vec<Stand> = (0..directory.n_points()).map(|i| stand(&directory, i)).collect();
@@ -48,7 +48,7 @@ pub fn status(options: &Options) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// What there is to tell of a point that is neither missing nor finished.
+/// What there is to report of a point that is neither missing nor finished.
 fn line(directory: &SweepDirectory, index: usize, stand: &Stand) -> Option<String> {
     match stand.state {
         PointState::Missing | PointState::Finished => None,

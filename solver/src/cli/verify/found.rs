@@ -51,7 +51,7 @@ impl Found {
         self.problems.push(Problem { file: file.to_owned(), what: what.to_string() });
     }
 
-    /// What was read of a file; nothing where it cannot be, which is told.
+    /// What was read of a file; nothing where it cannot be, which is reported.
     pub fn read<T, E: Display>(&mut self, file: &str, read: Result<T, E>) -> Option<T> {
         read.map_err(|error| self.wrong(file, error)).ok()
     }

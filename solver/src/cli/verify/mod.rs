@@ -40,7 +40,7 @@ pub struct Options {
     json: bool,
 }
 
-/// Tells what is wrong in directories of runs and sweeps.
+/// Reports what is wrong in directories of runs and sweeps.
 pub fn verify(options: &Options) -> Result<Exit, Failure> {
     let mut all = Vec::new();
     let mut is_sound = true;

@@ -1,4 +1,4 @@
-//! Messages and log of a run: whether they can be read, and tell each step once.
+//! Messages and log of a run: whether they can be read, and have each step once.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ pub fn check_messages(directory: &Path, known: &Known, found: &mut Found) {
     let rows = known.series.as_ref().map(|series| series.times.len());
     if known.is_finished() && rows.is_some_and(|rows| rows != messages.n_steps) {
         let n = messages.n_steps;
-        let what = format!("it tells {n} steps, and series.csv has {} rows", rows.unwrap_or(0));
+        let what = format!("it has {n} steps, and series.csv has {} rows", rows.unwrap_or(0));
         found.wrong(file, what);
     }
 }
@@ -44,7 +44,7 @@ pub fn check_log(directory: &Path, known: &Known, found: &mut Found) {
     let text = String::from_utf8_lossy(&text);
     let whole = text.rfind('\n').map_or("", |end| &text[..end]);
     for (index, line) in whole.lines().enumerate() {
-        // Where a process was killed the next one went on in the same line
+        // Where a process was killed the next one continued in the same line
         if !line.is_empty() && serde_json::from_str::<Value>(line).is_err() {
             let legs = known.provenance.as_ref().map_or(0, |provenance| provenance.legs.len());
             if legs < 2 {

@@ -39,8 +39,8 @@ fn check_one<const D: usize>(
         return;
     }
     let read = read_state::<D>(path).map_err(|error| {
-        let told = error.to_string();
-        told.rsplit_once(".state: ").map_or(told.clone(), |(_, what)| what.to_owned())
+        let reported = error.to_string();
+        reported.rsplit_once(".state: ").map_or(reported.clone(), |(_, what)| what.to_owned())
     });
     let Some(state) = found.read(&file, read) else { return };
     if let Err(error) = state.check_case(case) {

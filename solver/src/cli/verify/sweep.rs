@@ -32,9 +32,10 @@ pub fn verify(directory: &Path) -> Found {
         }
     }
     found.count("points", n);
-    let told = PointState::ALL.iter().zip(counts).filter(|(_, n)| *n > 0);
-    let told: Vec<String> = told.map(|(state, n)| format!("{n} {}", state.name())).collect();
-    found.state = told.join(", ");
+    let reported = PointState::ALL.iter().zip(counts).filter(|(_, n)| *n > 0);
+    let reported: Vec<String> =
+        reported.map(|(state, n)| format!("{n} {}", state.name())).collect();
+    found.state = reported.join(", ");
     check_table(&sweep, &mut found);
     found
 }
@@ -47,7 +48,7 @@ fn check_table(sweep: &SweepDirectory, found: &mut Found) {
     let Some(now) = found.read(TABLE_FILE, collect(sweep, &wanted)) else { return };
     let header = |table: &[u8]| table.split(|byte| *byte == b'\n').next().map(<[u8]>::to_vec);
     if header(&written) == header(&now) && written != now {
-        let what = "its rows are not those of the points: alewife sweep collect writes it anew";
+        let what = "its rows are not those of the points: alewife sweep collect writes it again";
         found.wrong(TABLE_FILE, what);
     }
 }

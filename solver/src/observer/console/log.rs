@@ -56,7 +56,7 @@ pub fn start_log(directory: Option<&Path>, verbosity: i8) -> io::Result<()> {
         None => None,
         Some(directory) => {
             let path = directory.join("log.jsonl");
-            // A run that resumes in its own directory goes on with its log
+            // A run that resumes in its own directory continues its log
             Some(File::options().append(true).create(true).open(&path).at(&path)?)
         }
     };

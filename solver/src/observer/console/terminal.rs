@@ -35,7 +35,7 @@ pub struct Terminal {
     is_terminal: bool,
 }
 
-/// Columns of the terminal that a stream is; 80 if it is none, or does not tell.
+/// Columns of the terminal that a stream is; 80 if it is none, or does not say.
 pub fn columns_of(stream: impl std::os::fd::AsFd) -> usize {
     let size = rustix::termios::tcgetwinsize(stream);
     size.map(|size| usize::from(size.ws_col)).ok().filter(|columns| *columns > 0).unwrap_or(80)
@@ -47,7 +47,7 @@ impl Terminal {
         self.is_terminal
     }
 
-    /// Its columns; 80 if it does not tell.
+    /// Its columns; 80 if it does not say.
     pub fn width(&self) -> usize {
         columns_of(io::stderr())
     }

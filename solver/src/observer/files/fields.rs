@@ -21,7 +21,7 @@ use crate::run::{Dimension, LastState, Observer, RunError, Snapshot, Solve};
 use crate::step::FlowError;
 use crate::timing::Timing;
 
-/// The flow of a run that was stopped, which goes once the run has gone on.
+/// The flow of a run that was stopped, which is removed once the run has continued.
 const STOPPED: &str = "fields/stopped.vtu";
 /// The list of all frames.
 const LIST: &str = "fields.pvd";

@@ -1,4 +1,4 @@
-//! The files a run writes as it goes on: rows, fields, and states to resume from.
+//! The files a run writes on its way: rows, fields, and states to resume from.
 
 mod checkpoints;
 mod commands;

@@ -177,7 +177,7 @@ struct Connection<'a> {
 
 impl Connection<'_> {
     fn run(mut self, name: &str) -> Result<(), Error> {
-        self.tell(&json!({
+        self.send_text(&json!({
             "op": "serverInfo",
             "name": name,
             "capabilities": ["time"],
@@ -188,7 +188,7 @@ impl Connection<'_> {
         loop {
             // What was said before the end was said before this look
             let is_over = self.shared.is_over();
-            self.tell_news()?;
+            self.send_news()?;
             if is_over {
                 return self.close();
             }
@@ -227,7 +227,7 @@ impl Connection<'_> {
         Ok(self.heard.last.elapsed() > IDLE || self.heard.wanted.elapsed() > IDLE)
     }
 
-    fn tell_news(&mut self) -> Result<(), Error> {
+    fn send_news(&mut self) -> Result<(), Error> {
         let news = self.shared.news(self.client, self.n_known);
         if !news.channels.is_empty() {
             let channels = news.channels.iter().map(|(id, channel)| {
@@ -242,11 +242,11 @@ impl Connection<'_> {
             });
             let channels: Vec<Value> = channels.collect();
             self.n_known += channels.len();
-            self.tell(&json!({"op": "advertise", "channels": channels}))?;
+            self.send_text(&json!({"op": "advertise", "channels": channels}))?;
         }
         for (subscription, LiveMessage { time, data, .. }) in news.messages {
-            // What is told first of an earlier time does not set the clock back
-            if self.time.is_none_or(|told| told < time) {
+            // What is reported first of an earlier time does not set the clock back
+            if self.time.is_none_or(|reported| reported < time) {
                 self.time = Some(time);
                 let mut frame = vec![TIME];
                 frame.extend(time.to_le_bytes());
@@ -262,7 +262,7 @@ impl Connection<'_> {
         self.socket.flush()
     }
 
-    fn tell(&mut self, what: &Value) -> Result<(), Error> {
+    fn send_text(&mut self, what: &Value) -> Result<(), Error> {
         self.socket.send(Message::text(what.to_string()))
     }
 

@@ -12,7 +12,7 @@ pub struct Host {
     pub name: String,
     /// Who may look on.
     pub visitors: Visitors,
-    /// Whether somebody was refused, which is told once.
+    /// Whether somebody was refused, which is reported once.
     pub has_refused: AtomicBool,
 }
 

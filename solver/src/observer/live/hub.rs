@@ -74,7 +74,7 @@ pub struct Shared {
     pub n_clients: AtomicUsize,
 }
 
-/// What a client is to be told next.
+/// What a client is to be sent next.
 #[derive(Debug, Default)]
 pub struct News {
     /// Channels that it does not know yet, with their numbers.

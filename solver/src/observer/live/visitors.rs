@@ -6,7 +6,7 @@ use tungstenite::handshake::server::Request;
 use tungstenite::http::HeaderName;
 use tungstenite::http::header::{HOST, ORIGIN};
 
-/// Characters of a name that are told.
+/// Characters of a name that are reported.
 const SHOWN: usize = 100;
 
 /// Names by which this server may be called, and pages that may do so.

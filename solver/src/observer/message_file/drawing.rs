@@ -13,7 +13,7 @@ use crate::case::{Geometry, Model};
 use crate::observer::run_directory::joint_ends;
 use crate::run::BodyReport;
 
-/// Part of the longest extent of the walls by which they have to move to be drawn anew.
+/// Part of the longest extent of the walls by which they have to move to be drawn again.
 const NOTICEABLE: f64 = 0.01;
 /// Part of the largest force below which a force is not drawn.
 const LEAST_FORCE: f64 = 1e-3;

@@ -86,7 +86,7 @@ struct Channel {
 
 impl MessageFile {
     /// `run.mcap` in `directory`, with the case as attachment, the provenance as metadata, and the
-    /// messages of a run that resumes. A live server is told the same.
+    /// messages of a run that resumes. A live server is sent the same.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -152,7 +152,7 @@ impl MessageFile {
     }
 
     /// Copies the messages of another file up to the time of a state; what a killed run left half written
-    /// is not there. Where more is missing, that is told.
+    /// is not there. Where more is missing, that is reported.
     fn take_over(&mut self, history: &History) -> io::Result<()> {
         let path = history.directory.join("run.mcap");
         let found = match std::fs::read(&path) {

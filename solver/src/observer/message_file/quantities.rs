@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 /// The quantities of one body, swimmer or probe, or of the flow.
 #[derive(Debug)]
 pub struct Group {
-    /// Where they are told.
+    /// Where they are reported.
     pub topic: String,
     /// Name of the schema.
     pub schema_name: String,

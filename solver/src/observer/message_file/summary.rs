@@ -14,7 +14,7 @@ pub struct MessageSummary {
     pub damage: Option<String>,
     /// All messages.
     pub n_messages: usize,
-    /// Those that tell a step.
+    /// Those that report a step.
     pub n_steps: usize,
     /// Topic and time (ns) of the first that is there twice, which only those of the log may be.
     pub twice: Option<String>,
@@ -28,8 +28,8 @@ pub fn read_messages(directory: &Path) -> io::Result<MessageSummary> {
     let path = directory.join("run.mcap");
     let Messages { all, damage, .. } = Messages::read(&std::fs::read(&path).at(&path)?);
     let mut known = HashSet::new();
-    let told = all.iter().filter(|message| message.topic != "/log");
-    let twice = told
+    let reported = all.iter().filter(|message| message.topic != "/log");
+    let twice = reported
         .map(|message| (message.topic.as_str(), message.time))
         .find(|place| !known.insert(*place))
         .map(|(topic, time)| format!("{topic} at {time} ns"));

@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::history::History;
 use super::provenance::{Point, Provenance};
+use super::read_back::History;
 use super::run_directory::RunDirectory;
 use crate::run::{LastState, Observer, RunError, Snapshot};
 use crate::timing::Timing;

@@ -66,7 +66,7 @@ pub enum Earlier {
     Keep,
     /// Replaces it.
     Replace,
-    /// Goes on where it ended.
+    /// Continues where it ended.
     Continue,
 }
 
@@ -289,10 +289,14 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let file = place.path().join("a");
         fs::write(&file, "").unwrap();
-        let told = |path: &Path| create(path, Earlier::Keep).unwrap_err().to_string();
-        assert!(told(&file).contains("is a file, and a run takes a directory"), "{}", told(&file));
+        let reported = |path: &Path| create(path, Earlier::Keep).unwrap_err().to_string();
+        assert!(
+            reported(&file).contains("is a file, and a run takes a directory"),
+            "{}",
+            reported(&file)
+        );
         let below = file.join("b");
-        let below = told(&below);
+        let below = reported(&below);
         assert!(below.contains("cannot be made") && below.contains("--out"), "{below}");
     }
 

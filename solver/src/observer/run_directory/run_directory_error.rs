@@ -16,7 +16,7 @@ pub enum RunDirectoryError {
         /// The directory.
         path: PathBuf,
     },
-    /// Another process runs in it, or there is no telling.
+    /// Another process runs in it, or that cannot be known.
     #[error(transparent)]
     Lock(#[from] LockError),
     /// It holds a run that can be resumed.

@@ -17,7 +17,7 @@ use crate::observer::system::{AtPath, process, remove_if_there};
 
 /// The file that is locked.
 pub const LOCK_FILE: &str = "lock";
-/// Longest name of a holder that is told (bytes).
+/// Longest name of a holder that is reported (bytes).
 const LONGEST: usize = 300;
 /// How the name of a holder begins; a file that begins otherwise was written by somebody else.
 const NAMED: &str = "process ";
@@ -223,7 +223,7 @@ fn text_of(file: &File) -> Option<String> {
 }
 
 /// The holder of a lock that this process was given, where it may still run: on another computer, by a file system
-/// that need not tell its locks to others.
+/// that need not make its locks known to others.
 fn holder_elsewhere(file: &File, directory: &Path) -> Option<String> {
     let holder = holder_of(file)?;
     let may_run = !is_of_this_host(&holder) && !sees_other_hosts(directory);
@@ -276,10 +276,10 @@ mod tests {
         put(place.path(), &format!("process 1 on {}\n", process::host_name().unwrap_or_default()));
         assert!(!RunLock::is_held(place.path(), &[]), "nobody locks it");
         let first = RunLock::take(place.path()).unwrap();
-        let told = RunLock::take(place.path()).unwrap_err().to_string();
+        let reported = RunLock::take(place.path()).unwrap_err().to_string();
         assert!(RunLock::is_held(place.path(), &[]));
         let first_is = format!("process {}", std::process::id());
-        assert!(told.contains(&first_is), "{told}");
+        assert!(reported.contains(&first_is), "{reported}");
         let copy = first.clone();
         drop(first);
         assert!(RunLock::is_held(place.path(), &[]), "a copy holds it as well");

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::history::History;
+use super::read_back::History;
 use super::restarts::Restarts;
 use super::write_times::WriteTimes;
 use crate::case::{Case, TimeSettings};
@@ -116,7 +116,7 @@ impl Status {
         (made > 0.0).then(|| taken * to_go / made)
     }
 
-    /// That of a run whose own is lost: it was under way, and its checkpoints tell more.
+    /// That of a run whose own is lost: it was under way, and its checkpoints have more.
     #[must_use]
     pub fn lost(case: &Case) -> Self {
         Self::beginning(case, 0, 0.0)

@@ -19,9 +19,10 @@ impl<T> AtPath<T> for io::Result<T> {
     fn at(self, path: &Path) -> io::Result<T> {
         self.map_err(|error| {
             let path = path.display().to_string();
-            let told = error.to_string();
-            let told = if told.starts_with(&path) { told } else { format!("{path}: {told}") };
-            io::Error::new(error.kind(), told)
+            let reported = error.to_string();
+            let reported =
+                if reported.starts_with(&path) { reported } else { format!("{path}: {reported}") };
+            io::Error::new(error.kind(), reported)
         })
     }
 }
@@ -54,7 +55,7 @@ pub fn directory_of(path: &Path) -> &Path {
 
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = unfinished_file(directory_of(path))?;
-    // The temporary name tells nobody anything
+    // The temporary name means nothing to anybody
     file.as_file_mut().write_all(bytes)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|refused| refused.error)?;

@@ -10,7 +10,7 @@ pub fn peak_memory() -> Option<u64> {
     Some(kibibytes * 1024)
 }
 
-/// Begins to look for the most memory anew, where the system lets a process do that: Linux since 4.0.
+/// Begins to look for the most memory again, where the system lets a process do that: Linux since 4.0.
 pub fn reset_peak_memory() {
     // Refused elsewhere, where there is no peak to read either
     let _ = std::fs::write("/proc/self/clear_refs", "5");

@@ -1,4 +1,4 @@
-//! Of a damaged `run.mcap` all whole chunks before the damage are kept, and what is lost is told.
+//! Of a damaged `run.mcap` all whole chunks before the damage are kept, and what is lost is reported.
 
 use super::super::message_file::messages::{Messages, OwnMessage};
 use super::*;
@@ -72,9 +72,9 @@ fn a_run_that_goes_on_after_a_damaged_file_tells_what_is_lost() {
         let again = Messages::read(&std::fs::read(&path).unwrap());
         assert_eq!(again.damage, None, "damage {case}");
         assert_eq!(n_of_steps(&again.all), n_left, "damage {case}");
-        let told =
+        let reported =
             again.all.iter().filter(|one| String::from_utf8_lossy(&one.data).contains("lost"));
-        assert_eq!(told.count(), usize::from(n_left < 3 * (STEPS + 1)), "damage {case}");
+        assert_eq!(reported.count(), usize::from(n_left < 3 * (STEPS + 1)), "damage {case}");
     }
 }
 

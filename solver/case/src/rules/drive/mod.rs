@@ -24,7 +24,7 @@ pub fn at_rest(file: &CaseFile) -> Option<Diagnostic> {
         key: String::new(),
         message: "nothing drives this case: all is at rest and stays there".to_owned(),
         help: "give a body a load, a density other than the fluid's with gravity, a gait or an imposed \
-             motion, a side a velocity, joints a stroke, a motor or a spring that is not at rest, or \
+             motion, a side a velocity, a magnetic moment a field, joints a stroke, a motor or a spring that is not at rest, or \
              the fluid a `flow`"
             .to_owned(),
         location: None,
@@ -38,7 +38,11 @@ fn is_driven(model: &Model) -> bool {
         || case.flow.as_ref().is_some_and(mean_flow_drives)
         || (0..model.bodies.len()).any(|body| {
             let own = &model.bodies[body];
-            gait_drives(own) || motion_drives(own) || spring_drives(own) || is_pulled(model, body)
+            gait_drives(own)
+                || motion_drives(own)
+                || spring_drives(own)
+                || is_pulled(model, body)
+                || field_drives(model, own)
         })
         || model.joints.iter().any(|joint| joint_drives(model, joint))
         || may_touch(model)
@@ -105,6 +109,12 @@ fn motion_drives(body: &Body) -> bool {
     moves && acts(motion.factor.as_ref())
 }
 
+/// Whether a field acts on a body that is free; where it would take more than a case to know, it may move it.
+fn field_drives(model: &Model, body: &Body) -> bool {
+    let is_there = model.case.magnetic_field().is_some() && !body.magnetic_moment.is_empty();
+    is_there && body.motion == Motion::Free
+}
+
 /// Whether the spring of a body is not at rest at the start.
 fn spring_drives(body: &Body) -> bool {
     let Some(spring) = &body.spring else { return false };
@@ -168,7 +178,7 @@ fn is_pulled(model: &Model, body: usize) -> bool {
 }
 
 /// Whether a stroke is not the same at all times.
-fn moves(stroke: &Stroke) -> bool {
+pub(super) fn moves(stroke: &Stroke) -> bool {
     match stroke {
         Stroke::Constant(_) => false,
         Stroke::Steady { rate, .. } => *rate != 0.0,

@@ -1,5 +1,6 @@
 //! Problems of `[fluid]`, and numbers that disagree.
 
+use super::viscosity;
 use crate::model::numbers::{density_ratio, reynolds, significant};
 use crate::rules::Findings;
 use crate::{Case, FlowModel, Geometry, Model, Motion};
@@ -48,6 +49,7 @@ pub fn check(findings: &mut Findings<'_>) {
             "add `density = ...` to [fluid]; in slow flow (stokes) it is used for buoyancy only",
         );
     }
+    viscosity::check(findings);
     declared_numbers(findings);
     resolution(findings);
 }
@@ -84,7 +86,10 @@ fn finest_crossing(model: &Model) -> Option<Crossing> {
     let sizes = sizes.chain(mesh.boxes.iter().map(|refined| refined.size));
     let sizes = sizes.chain(model.bodies.iter().filter_map(|body| body.size));
     let size = mesh.scale * sizes.fold(mesh.size, f64::min);
-    Some(Crossing { speed, reynolds: fluid.density * speed * size / fluid.viscosity })
+    Some(Crossing {
+        speed,
+        reynolds: fluid.density * speed * size / model.case.reference_viscosity(),
+    })
 }
 
 /// `[numbers]` against what follows from the rest of the case.

@@ -137,6 +137,7 @@ fn check_balance(findings: &mut Findings<'_>, axis: usize) {
             && body.load_frame == LoadFrame::Laboratory
             && body.spring.is_none()
             && body.gait.is_none()
+            && body.magnetic_moment.is_empty()
     };
     if case.fluid.model != FlowModel::Stokes || !model.bodies.iter().all(is_plain) {
         return;

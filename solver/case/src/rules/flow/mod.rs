@@ -6,3 +6,4 @@ pub(super) mod fluid;
 pub(super) mod given_mesh;
 pub(super) mod mean_flow;
 pub(super) mod mesh;
+mod viscosity;

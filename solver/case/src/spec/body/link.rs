@@ -22,7 +22,7 @@ pub enum Link {
     Shaped(ShapedLink),
 }
 
-/// A link that is no ellipse, or not as dense as the others.
+/// A link that is no ellipse, not as dense as the others, or a magnet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -33,6 +33,9 @@ pub struct ShapedLink {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
     pub density: Option<f64>,
+    /// Magnetic moment in the frame of the link (A m2; A m planar), one number per dimension.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub magnetic_moment: Vec<f64>,
 }
 
 /// Smallest and largest x of an outline in its body frame, and half of its extent across (m).
@@ -57,6 +60,14 @@ impl Link {
         match self {
             Self::Ellipse(_) => None,
             Self::Shaped(link) => link.density,
+        }
+    }
+
+    /// Its magnetic moment (A m2; A m planar); empty if it has none.
+    pub fn magnetic_moment(&self) -> &[f64] {
+        match self {
+            Self::Ellipse(_) => &[],
+            Self::Shaped(link) => &link.magnetic_moment,
         }
     }
 
@@ -138,7 +149,8 @@ mod tests {
 
     #[test]
     fn ends_are_those_of_the_outline_along_the_chain() {
-        let shaped = |shape| Link::Shaped(ShapedLink { shape, density: None });
+        let shaped =
+            |shape| Link::Shaped(ShapedLink { shape, density: None, magnetic_moment: Vec::new() });
         let ends = |link: &Link| link.extent().map(|extent| [extent.back, extent.front]).unwrap();
         assert_eq!(ends(&Link::Ellipse([0.4, 0.1])), [-0.4, 0.4]);
         assert_eq!(ends(&shaped(ShapeSpec::Disc { radius: 0.3 })), [-0.3, 0.3]);

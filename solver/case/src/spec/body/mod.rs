@@ -342,6 +342,10 @@ pub struct Body {
     /// Spring and damper that tie it to a point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spring: Option<SpringSpec>,
+    /// Magnetic moment in the frame of the body (A m2; A m planar), one number per dimension, which the
+    /// field of `[field]` turns.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub magnetic_moment: Vec<f64>,
     /// Cell size on its surface (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]

@@ -42,6 +42,9 @@ pub struct SwimmerSpec {
     /// How the root body moves.
     #[serde(default = "free")]
     pub motion: Motion,
+    /// Magnetic moment of the root body in its frame (A m2; A m planar), one number per dimension.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub magnetic_moment: Vec<f64>,
     /// Cell size on its surfaces (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]
@@ -115,7 +118,7 @@ pub enum SwimmerKind {
     #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     Chain {
         /// Links from the front: semi-axes of an ellipse, in three dimensions of a spheroid (m), along
-        /// the chain and across, or `{ shape, density }`.
+        /// the chain and across, or `{ shape, density, magnetic_moment }`.
         links: Vec<Link>,
         /// Distance of the ends of neighbours along the chain, the pivot in its middle, on the x axes
         /// of both (m).

@@ -30,7 +30,7 @@ pub struct BodyDynamics {
     pub inertia: Vec<Matrix6<f64>>,
     /// Load per velocity of each body from springs and dampers (N s/m, N m s/rad).
     pub resistance: Vec<RigidVector>,
-    /// Dynamic viscosity of the fluid (Pa s).
+    /// Dynamic viscosity of the fluid (Pa s), at rest where it depends on the rate of shear.
     pub viscosity: f64,
 }
 

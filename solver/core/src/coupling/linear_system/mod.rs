@@ -41,20 +41,29 @@ impl SolverChoice {
     }
 }
 
+/// What the matrix of a system has beside the cells of its mesh.
+pub(super) struct NewSystem<'a> {
+    pub constraints: &'a AffineConstraints,
+    /// What each unknown is.
+    pub saddle_point: SaddlePoint,
+    /// Unknowns of bodies that couple with each other without a cell.
+    pub blocks: Vec<Vec<u32>>,
+}
+
 /// A zero matrix for the cells of an assembly, with the chosen solver.
 pub(super) fn system_solver<const D: usize>(
     assembly: &Assembly<D>,
-    constraints: &AffineConstraints,
-    saddle_point: SaddlePoint,
+    system: NewSystem<'_>,
     choice: SolverChoice,
 ) -> Box<dyn SystemSolver> {
+    let NewSystem { constraints, saddle_point, blocks } = system;
     match choice.iterative(D, constraints.n_unknowns()) {
         Some(settings) => {
-            let cells = assembly.cell_unknowns(constraints);
+            let cells = assembly.cell_unknowns(constraints, &blocks);
             Box::new(IterativeSystem::new(&cells, saddle_point, settings))
         }
         None => {
-            let maps = assembly.maps(constraints);
+            let maps = assembly.maps(constraints, &blocks);
             Box::new(DirectSystem::new(maps, saddle_point.unknowns()))
         }
     }

@@ -11,7 +11,7 @@ use crate::algebra::{
     SparseMatrix, Term, Weights,
 };
 use crate::body::Modes;
-use crate::flow::for_each_cell;
+use crate::flow::{LocalViscosity, for_each_cell};
 use crate::space::{CellValues, DofLayout, Tables};
 
 /// An index in 32 bits, as the linear algebra stores it.
@@ -33,6 +33,9 @@ fn held_pressure<const D: usize>(
 ) -> Option<NodeId> {
     layout.vertices().find(|&vertex| constraints.row(layout.pressure(vertex)).is_empty())
 }
+
+/// Velocities that stand for one body.
+const MODES: [u8; 6] = [0, 1, 2, 3, 4, 5];
 
 /// What each free unknown is.
 pub(in super::super) fn saddle_point<const D: usize>(
@@ -62,6 +65,10 @@ pub(in super::super) fn saddle_point<const D: usize>(
             set(layout.rigid(body, position), Part::Rigid { body: index(body), mode });
         }
     }
+    for (coordinate, mode) in (0..layout.n_coordinates).zip(MODES.into_iter().cycle()) {
+        let body = index(layout.n_bodies + coordinate / MODES.len());
+        set(layout.rate(coordinate), Part::Rigid { body, mode });
+    }
     SaddlePoint {
         parts: parts.into_iter().flatten().collect(),
         has_held_pressure: held_pressure(layout, constraints).is_some(),
@@ -71,7 +78,7 @@ pub(in super::super) fn saddle_point<const D: usize>(
 /// What the numbers depend on, beside where the nodes are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in super::super) struct Coefficients {
-    /// Dynamic viscosity (Pa s).
+    /// Dynamic viscosity (Pa s), if it is the same everywhere.
     pub viscosity: f64,
     /// Density times the factor of the new velocity in its rate (kg/m^3/s), zero without inertia.
     pub inertia: f64,
@@ -85,6 +92,8 @@ pub(in super::super) struct Discretised<'a, const D: usize> {
     pub layout: &'a DofLayout<D>,
     pub constraints: &'a AffineConstraints,
     pub tables: &'a Tables<D>,
+    /// The viscosity where it is another one in each cell.
+    pub local: Option<&'a LocalViscosity<'a, D>>,
 }
 
 impl<const D: usize> Discretised<'_, D> {
@@ -92,12 +101,18 @@ impl<const D: usize> Discretised<'_, D> {
     pub fn weights(&self, coefficients: Coefficients) -> Weights {
         let Coefficients { viscosity, inertia, has_convection } = coefficients;
         let (integrals, (interpolation, distances)) = rayon::join(
-            || self.integrals(1.0 / (2.0 * viscosity)),
+            || self.integrals(viscosity),
             || (self.interpolation(), self.wall_distances()),
         );
         let lumped_mass = self.restricted(&integrals.lumped_mass);
-        let drag = |(mass, distance): (&f64, &f64)| mass * WALL_DRAG * viscosity / distance.powi(2);
-        let wall_drag: Vec<f64> = integrals.lumped_mass.iter().zip(&distances).map(drag).collect();
+        let drag = |(node, distance): (usize, &f64)| {
+            let viscous = match &integrals.viscous_mass {
+                Some(viscous_mass) => WALL_DRAG * viscous_mass[node],
+                None => integrals.lumped_mass[node] * WALL_DRAG * viscosity,
+            };
+            viscous / distance.powi(2)
+        };
+        let wall_drag: Vec<f64> = distances.iter().enumerate().map(drag).collect();
         let wall_drag = self.restricted(&wall_drag);
         let pressure_mass = integrals.pressure_mass;
         Weights { interpolation, pressure_mass, lumped_mass, wall_drag, inertia, has_convection }
@@ -152,27 +167,33 @@ impl<const D: usize> Discretised<'_, D> {
         interpolation
     }
 
-    /// The mass matrix of the pressures times a factor, the held pressure last, and the lumped mass of the
-    /// velocities at the nodes.
+    /// The mass matrix of the pressures over twice the viscosity (Pa s), or over twice its mean in each cell, the held
+    /// pressure last, and the lumped mass of the velocities at the nodes.
     ///
     /// Lumped masses are the diagonal of the mass matrix of a cell, scaled to its volume: row sums are
     /// not positive for quadratic elements (@hinton1976).
-    fn integrals(&self, factor: f64) -> Integrals {
-        let Self { mesh, layout, tables, .. } = self;
+    fn integrals(&self, viscosity: f64) -> Integrals {
+        let Self { mesh, layout, tables, local, .. } = self;
         let PressureCells { folds, constraints } = self.pressure_cells();
         let maps = CellMaps::new(&folds.unknowns(&constraints), |_, _| true);
         let mut values = vec![0.0; maps.pattern().n_entries()];
         let mut lumped_mass = vec![0.0; layout.n_nodes];
+        let mut viscous_mass = local.map(|_| vec![0.0; layout.n_nodes]);
         let mut folded = vec![0.0; folds.largest_matrix()];
         let n_entries = (D + 1) * (D + 1);
-        let size = n_entries + Simplex::<D>::N_NODES;
+        // Matrix, lumped masses, viscosity
+        let size = n_entries + Simplex::<D>::N_NODES + 1;
         let compute = |cells: Range<usize>, integrals: &mut [f64]| {
             let mut workspace = CellValues::default();
             for (cell, of_cell) in cells.map(CellId::new).zip(integrals.chunks_exact_mut(size)) {
+                of_cell.fill(0.0);
+                let (own, of_cell) = of_cell.split_last_mut().expect("a cell has numbers");
                 let (matrix, lumped) = of_cell.split_at_mut(n_entries);
-                matrix.fill(0.0);
-                lumped.fill(0.0);
                 let mut volume = 0.0;
+                *own = local.map_or(viscosity, |local| {
+                    mean_viscosity(local, &mut workspace, tables, mesh, cell)
+                });
+                let factor = 1.0 / (2.0 * *own);
                 workspace.for_each_point(tables, mesh, cell, |at| {
                     volume += at.dx;
                     for (square, phi) in lumped.iter_mut().zip(at.phi) {
@@ -192,6 +213,9 @@ impl<const D: usize> Discretised<'_, D> {
             let (matrix, lumped) = of_cell.split_at(n_entries);
             for (&node, mass) in mesh.cell(CellId::new(cell)).iter().zip(lumped) {
                 lumped_mass[node.index()] += mass;
+                if let (Some(viscous_mass), [.., own]) = (&mut viscous_mass, lumped) {
+                    viscous_mass[node.index()] += mass * own;
+                }
             }
             if folds.is_folded(cell) {
                 folds.fold(cell, &constraints, matrix, &mut folded);
@@ -201,7 +225,7 @@ impl<const D: usize> Discretised<'_, D> {
             }
         });
         let pressure_mass = SparseMatrix::new(Arc::clone(maps.pattern()), values);
-        Integrals { pressure_mass, lumped_mass }
+        Integrals { pressure_mass, lumped_mass, viscous_mass }
     }
 
     /// The pressures of each cell, periodic copies folded to their originals.
@@ -248,6 +272,24 @@ struct Integrals {
     pressure_mass: SparseMatrix,
     /// Of each node.
     lumped_mass: Vec<f64>,
+    /// The same times the viscosities of the cells, where they have their own.
+    viscous_mass: Option<Vec<f64>>,
+}
+
+/// The mean of a viscosity over a cell (Pa s).
+fn mean_viscosity<const D: usize>(
+    local: &LocalViscosity<'_, D>,
+    workspace: &mut CellValues<D>,
+    tables: &Tables<D>,
+    mesh: &Mesh<D>,
+    cell: CellId,
+) -> f64 {
+    let (mut sum, mut volume) = (0.0, 0.0);
+    workspace.for_each_point(tables, mesh, cell, |at| {
+        sum += local.value(tables.metric(), mesh.cell(cell), at) * at.dx;
+        volume += at.dx;
+    });
+    sum / volume
 }
 
 /// Pressures of the cells, and which of them are equal.
@@ -303,8 +345,8 @@ mod tests {
         }
         let constraints = &builder.build();
         let tables = &Tables::new(Metric::Cartesian);
-        let discretised = Discretised { mesh, layout, constraints, tables };
-        let mass = discretised.integrals(1.0).lumped_mass;
+        let discretised = Discretised { mesh, layout, constraints, tables, local: None };
+        let mass = discretised.integrals(0.5).lumped_mass;
         let distances = discretised.wall_distances();
         let sum: f64 = mass.iter().zip(&distances).map(|(mass, d)| mass * d * d / viscosity).sum();
         let mobility = sum / mass.iter().sum::<f64>();

@@ -5,7 +5,7 @@ use nalgebra::SMatrix;
 
 use super::super::boundaries::Boundaries;
 use crate::body::Wrench;
-use crate::flow::Fields;
+use crate::flow::{Fields, Viscosity, squared_shear};
 use crate::space::{FacetRule, Metric};
 
 /// A flow whose stress is integrated over boundaries.
@@ -17,8 +17,10 @@ pub struct SurfaceStress<'a, const D: usize> {
     pub boundaries: &'a Boundaries,
     /// Quadrature on facets.
     pub rule: &'a FacetRule<D>,
-    /// Dynamic viscosity (Pa s).
-    pub viscosity: f64,
+    /// Cartesian, or revolved about x.
+    pub metric: Metric,
+    /// Dynamic viscosity (Pa s), or its law.
+    pub viscosity: Viscosity,
     /// Velocity and pressure.
     pub fields: Fields<'a, D>,
 }
@@ -35,6 +37,20 @@ pub(super) struct SurfacePoint<const D: usize> {
 }
 
 impl<const D: usize> SurfaceStress<'_, D> {
+    /// The viscosity (Pa s) where the velocity (m/s) has a gradient (1/s).
+    fn viscosity_at(
+        &self,
+        gradient: &SMatrix<f64, D, D>,
+        velocity: &Point<D>,
+        position: &Point<D>,
+    ) -> f64 {
+        if let Viscosity::Newtonian(value) = self.viscosity {
+            return value;
+        }
+        let hoop = self.metric.hoop_strain(velocity, position);
+        self.viscosity.at(squared_shear(gradient, hoop)).value
+    }
+
     /// Visits the quadrature points of a boundary.
     pub(super) fn for_each_point(
         &self,
@@ -55,7 +71,8 @@ impl<const D: usize> SurfaceStress<'_, D> {
                 }
                 let pressure: f64 =
                     nodes.iter().zip(at.psi).map(|(&node, psi)| fields.pressure[node] * psi).sum();
-                let traction = (gradient + gradient.transpose()) * at.normal_ds * self.viscosity
+                let viscosity = self.viscosity_at(&gradient, &velocity, &at.position);
+                let traction = (gradient + gradient.transpose()) * at.normal_ds * viscosity
                     - at.normal_ds * pressure;
                 visit(&SurfacePoint { position: at.position, force: -traction, velocity });
             });
@@ -91,14 +108,20 @@ impl<const D: usize> SurfaceStress<'_, D> {
             let facet = &mesh.facets[facet];
             let nodes = mesh.cell(facet.cell);
             self.rule.for_each_point(mesh, facet, |at| {
+                let mut velocity = Point::<D>::zeros();
                 let mut gradient = SMatrix::<f64, D, D>::zeros();
                 for (a, &node) in nodes.iter().enumerate() {
+                    velocity += fields.velocity[node] * at.phi[a];
                     gradient += fields.velocity[node] * at.grad_phi[a].transpose();
                 }
-                friction += ((gradient + gradient.transpose()) * at.normal_ds).norm();
+                let size = ((gradient + gradient.transpose()) * at.normal_ds).norm();
+                friction += match self.viscosity {
+                    Viscosity::Newtonian(_) => size,
+                    _ => size * self.viscosity_at(&gradient, &velocity, &at.position),
+                };
             });
         }
-        self.viscosity * friction
+        if let Viscosity::Newtonian(value) = self.viscosity { value * friction } else { friction }
     }
 
     /// Force and torque about `center` of the fluid on a boundary:

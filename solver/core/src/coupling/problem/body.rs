@@ -7,8 +7,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::in_time::TimeValue;
 use super::joint::Joint;
+use super::magnet::Magnet;
 use crate::body::{Inertia, Mode, Pose, RigidVector, Wrench};
 use crate::gait::{DeformedOutline, Gait, ShapeMotion};
+use crate::structure::Flexible;
 
 /// What determines one rigid velocity of a body.
 pub enum Drive {
@@ -69,9 +71,11 @@ pub struct RigidBody {
     pub load_in_body: bool,
     /// Spring and damper.
     pub spring: Option<Spring>,
+    /// Magnetic moment in a field.
+    pub magnet: Option<Magnet>,
     /// Slip of the surface.
     pub gait: Option<Box<dyn Gait>>,
-    /// How its outline deforms.
+    /// How its outline deforms: in time, or with coordinates of its own, whose rates are further unknowns.
     pub shape: Option<Arc<dyn ShapeMotion>>,
     /// The joint by which it hangs on another body; its pose and velocity follow from it, but for the
     /// rotation in a free pivot.
@@ -94,6 +98,7 @@ impl RigidBody {
             load_factor: None,
             load_in_body: false,
             spring: None,
+            magnet: None,
             gait: None,
             shape: None,
             joint: None,
@@ -104,6 +109,21 @@ impl RigidBody {
     #[must_use]
     pub fn free(self) -> Self {
         Self { drives: [const { Drive::Free }; 6], ..self }
+    }
+
+    /// The same body with a shape that follows coordinates of its own, which have its mass; weight and loads act at
+    /// its centre.
+    #[must_use]
+    pub fn with_coordinates(self, shape: Arc<dyn ShapeMotion>) -> Self {
+        let drives =
+            Mode::ALL.map(|mode| if mode.is_rotation() { Drive::Held } else { Drive::Free });
+        Self { drives, inertia: Inertia::default(), shape: Some(shape), ..self }
+    }
+
+    /// What has coordinates beside the pose, if anything has.
+    #[must_use]
+    pub fn flexible(&self) -> Option<&Arc<dyn Flexible>> {
+        self.shape.as_ref()?.flexible()
     }
 
     /// What determines a velocity.
@@ -123,7 +143,11 @@ impl RigidBody {
         } else {
             self.load
         };
-        self.weight.to_vector() + load.to_vector() * factor
+        let given = self.weight.to_vector() + load.to_vector() * factor;
+        match &self.magnet {
+            Some(magnet) => given + magnet.load(time, pose).to_vector(),
+            None => given,
+        }
     }
 
     /// Mass and inertia tensor with an outline, those at rest for a body that does not deform.

@@ -4,23 +4,28 @@ mod body;
 mod group;
 mod in_time;
 mod joint;
+mod magnet;
 mod mean_flow;
 mod side;
 
+use std::ops::Range;
+
 use alewife_mesh::{BoundaryId, Point};
-use nalgebra::Matrix6;
+use nalgebra::{DVector, Matrix6};
 
 pub use body::{Drive, RigidBody, Spring, second_moments};
 pub use group::Group;
 pub use in_time::{MovingValue, RateDiscontinuities, TimeValue};
 pub(in crate::coupling) use joint::FreeArm;
 pub use joint::{Arm, Joint, JointLaw, Length, Pivot, Turn, angle_about};
+pub use magnet::{FieldPart, LocalField, Magnet, MagneticField, UniformField};
 pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
 pub use side::{Side, VelocityProfile};
 
-use crate::body::{Mode, Modes, Twist, on_mesh};
-use crate::flow::{BodyForce, Convection};
+use crate::body::{Mode, Modes, Pose, Twist, on_mesh};
+use crate::flow::{BodyForce, Convection, LocalViscosity, Viscosity, ViscosityTerm};
 use crate::space::Metric;
+use crate::structure::Held;
 
 /// Everything that is given.
 pub struct Problem<const D: usize> {
@@ -28,8 +33,8 @@ pub struct Problem<const D: usize> {
     pub metric: Metric,
     /// Density (kg/m3).
     pub density: f64,
-    /// Dynamic viscosity (Pa s).
-    pub viscosity: f64,
+    /// Dynamic viscosity (Pa s), or the law it follows.
+    pub viscosity: Viscosity,
     /// Whether fluid and bodies have inertia (else quasi-steady Stokes flow).
     pub has_inertia: bool,
     /// Whether the fluid is convected.
@@ -58,6 +63,73 @@ impl<const D: usize> Problem<D> {
             (Metric::Revolved, _) => Modes::AXISYMMETRIC,
             (Metric::Cartesian, 2) => Modes::PLANAR,
             (Metric::Cartesian, _) => Modes::SPATIAL,
+        }
+    }
+
+    /// The coordinates each body has beside its pose, among those of all bodies.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<Range<usize>> {
+        coordinate_ranges(&self.bodies)
+    }
+
+    /// Coordinates of all bodies together.
+    #[must_use]
+    pub fn n_coordinates(&self) -> usize {
+        self.coordinates().last().map_or(0, |last| last.end)
+    }
+
+    /// Coordinates of all bodies at time zero.
+    #[must_use]
+    pub fn initial_coordinates(&self) -> Vec<f64> {
+        initial_coordinates(&self.bodies)
+    }
+
+    /// Coordinates that are given at a time (s), numbered through all bodies.
+    #[must_use]
+    pub fn held_coordinates(&self, time: f64) -> Vec<Held> {
+        let bodies = self.bodies.iter().zip(self.coordinates());
+        let held = |(body, own): (&RigidBody, Range<usize>)| {
+            let held = body.flexible().map(|flexible| flexible.held(time)).unwrap_or_default();
+            let numbered =
+                move |held: Held| Held { coordinate: own.start + held.coordinate, ..held };
+            held.into_iter().map(numbered).collect::<Vec<_>>()
+        };
+        bodies.flat_map(held).collect()
+    }
+
+    /// Kinetic energy (J) of a body by the rates of its coordinates among those of all bodies; zero of a rigid one.
+    #[must_use]
+    pub fn kinetic_energy_of_coordinates(&self, body: usize, rates: &[f64]) -> f64 {
+        let Some(flexible) = self.bodies[body].flexible() else { return 0.0 };
+        let rates = DVector::from_column_slice(&rates[self.coordinates()[body].clone()]);
+        0.5 * rates.dot(&(flexible.mass() * &rates))
+    }
+
+    /// Elastic energy (J) of a body at a time (s) with its coordinates among these of all bodies; zero of a rigid one.
+    #[must_use]
+    pub fn elastic_energy(&self, body: usize, coordinates: &[f64], time: f64) -> f64 {
+        let Some(flexible) = self.bodies[body].flexible() else { return 0.0 };
+        let own = DVector::from_column_slice(&coordinates[self.coordinates()[body].clone()]);
+        flexible.elastic_energy(&own, time)
+    }
+
+    /// Puts bodies with coordinates as far from where they started as these of all bodies have their centres.
+    pub fn follow_coordinates(&self, poses: &mut [Pose], coordinates: &[f64]) {
+        let bodies = self.bodies.iter().zip(self.coordinates());
+        for ((body, own), pose) in bodies.zip(poses) {
+            let Some(flexible) = body.flexible() else { continue };
+            let own = DVector::from_column_slice(&coordinates[own]);
+            let way = flexible.way_of_center(&own);
+            pose.center = body.pose.center + body.pose.to_world(&way);
+        }
+    }
+
+    /// The viscosity of a system in which a law is linearised about the strain of a velocity at the nodes (m/s).
+    #[must_use]
+    pub fn viscosity_at<'a>(&self, velocity: &'a [Point<D>]) -> ViscosityTerm<'a, D> {
+        match self.viscosity {
+            Viscosity::Newtonian(value) => ViscosityTerm::Constant(value),
+            law => ViscosityTerm::Local(LocalViscosity { law, velocity }),
         }
     }
 
@@ -199,4 +271,23 @@ impl<const D: usize> Problem<D> {
             (true, true) => Convection::NewtonInFrame,
         }
     }
+}
+
+/// Coordinates of all these bodies at time zero.
+#[must_use]
+pub fn initial_coordinates(bodies: &[RigidBody]) -> Vec<f64> {
+    let flexible = bodies.iter().filter_map(RigidBody::flexible);
+    flexible.flat_map(|body| body.initial().as_slice().to_vec()).collect()
+}
+
+/// The coordinates each body has beside its pose, among those of all these bodies.
+#[must_use]
+pub fn coordinate_ranges(bodies: &[RigidBody]) -> Vec<Range<usize>> {
+    let mut end = 0;
+    let next = |body: &RigidBody| {
+        let start = end;
+        end += body.flexible().map_or(0, |flexible| flexible.n_coordinates());
+        start..end
+    };
+    bodies.iter().map(next).collect()
 }

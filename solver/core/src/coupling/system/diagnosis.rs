@@ -58,6 +58,10 @@ impl<const D: usize> FluidSystem<D> {
             );
         }
         let modes = problem.modes();
+        if raw >= self.layout.rate(0) {
+            let coordinate = raw - self.layout.rate(0);
+            return format!("the rate of coordinate {coordinate} of bodies that bend");
+        }
         let rigid = raw - self.layout.n_fluid();
         let mode = modes.iter().nth(rigid % modes.len()).unwrap_or(Mode::X);
         let body = &problem.bodies[rigid / modes.len()].name;

@@ -9,6 +9,7 @@ use super::super::solution::Solution;
 use super::FluidSystem;
 use crate::algebra::{AffineConstraints, ConstraintBuilder, Term};
 use crate::body::{BodyLoad, LoadedBody, Mode, Pose};
+use crate::space::DofLayout;
 use crate::timing::Timing;
 
 impl<const D: usize> FluidSystem<D> {
@@ -54,9 +55,12 @@ impl<const D: usize> FluidSystem<D> {
         bodies: &[LoadedBody],
     ) -> DMatrix<f64> {
         let n_modes = self.modes.len();
-        let mut builder = ConstraintBuilder::new(n_modes * problem.bodies.len());
-        let raw = |body: usize, position: usize| n_modes * body + position;
-        constrain_rigid_velocities(problem, poses, time, raw, &mut builder);
+        let n_coordinates = problem.n_coordinates();
+        let n_bodies = problem.bodies.len();
+        let layout = DofLayout::<D> { n_nodes: 0, n_vertices: 0, n_bodies, n_modes, n_coordinates };
+        let mut builder = ConstraintBuilder::new(layout.n_raw());
+        constrain_rigid_velocities(problem, poses, time, &layout, &mut builder);
+        let raw = |body: usize, position: usize| layout.rigid(body, position);
         Masters::of(&self.rows(&builder.build(), raw, bodies)).weights
     }
 

@@ -1,15 +1,16 @@
 //! One linear system for the fluid and every body in it.
 //!
 //! A step of Newton's method on R(x) = 0 with x = P y + g: solve P^T J P dy = -P^T R(x). On the
-//! rows of U and omega, P^T gathers minus the fluid's load, to which Newton and Euler add
-//! m dU/dt - F_ext and d(I omega)/dt - T_ext: no interface stress, no multiplier, and no added-mass
-//! instability at any density ratio.
+//! rows of the velocities of a body, P^T gathers minus the fluid's load. To those of U and omega Newton and Euler add
+//! m dU/dt - F_ext and d(I omega)/dt - T_ext, to those of its coordinates its structure adds M dv/dt + f(q, v, t): no
+//! interface stress, no multiplier, and no added-mass instability at any density ratio.
 
 mod diagnosis;
 mod mobility;
 mod nullspace;
 mod numbering;
 mod refine;
+mod residual;
 mod rigid_unknowns;
 mod solver_memory;
 
@@ -17,11 +18,12 @@ use alewife_mesh::{Mesh, Point};
 
 use self::nullspace::TranslationNullspace;
 use self::numbering::{Numbering, free_velocities};
+use self::rigid_unknowns::blocks_of_bodies;
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
 use super::linear_system::{
-    Coefficients, Discretised, SolverChoice, SystemSolver, saddle_point, system_solver,
+    Coefficients, Discretised, NewSystem, SolverChoice, SystemSolver, saddle_point, system_solver,
 };
 use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, surface_loads};
 use super::mass_tolerance::mass_tolerance;
@@ -31,9 +33,10 @@ use super::problem::{MeanFlowAt, Problem};
 use super::rigid_equations::RigidBodyEquations;
 use super::shapes::BodyShapes;
 use super::solution::Solution;
+use super::surface::RestPlaces;
 use crate::algebra::{Accuracy, AffineConstraints, SolverMemory, SparseMatrix, Unknowns};
 use crate::body::{Modes, Pose};
-use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
+use crate::flow::{Assembly, Convection, FlowTerms, ViscosityTerm, assemble};
 use crate::space::{DofLayout, FacetRule, Tables};
 use crate::timing::{Stage, Timing};
 
@@ -52,6 +55,15 @@ pub struct Configuration<'a, const D: usize> {
     pub mean_flow: MeanFlowAt<D>,
 }
 
+/// Bodies in a mesh, with what holds while the mesh lasts.
+#[derive(Debug, Clone)]
+pub struct MeshedBodies<'a> {
+    /// Where they are.
+    pub at: BodiesAt<'a>,
+    /// Where nodes on bodies with coordinates are at rest (m).
+    pub rest_places: RestPlaces,
+}
+
 /// Pattern, factorisation and workspace for the systems on one mesh.
 pub struct FluidSystem<const D: usize> {
     /// Numbering of the raw unknowns.
@@ -61,6 +73,8 @@ pub struct FluidSystem<const D: usize> {
     /// Number of free unknowns.
     pub n_unknowns: usize,
     pub(super) modes: Modes,
+    /// Where nodes on bodies with coordinates are at rest (m).
+    rest_places: RestPlaces,
     facet_rule: FacetRule<D>,
     assembly: Assembly<D>,
     pub(super) linear: Box<dyn SystemSolver>,
@@ -93,13 +107,31 @@ impl<const D: usize> FluidSystem<D> {
         unknown_frame: bool,
         choice: SolverChoice,
     ) -> Self {
-        let modes = problem.modes();
-        let layout = DofLayout::new(mesh, problem.bodies.len(), modes.len());
-        let boundaries = Boundaries::new(mesh);
         // Which unknowns are constrained does not depend on how bodies deform
         let shapes = BodyShapes::rigid(problem.bodies.len());
-        let constraints = Constrainer { problem, mesh, layout: &layout }
-            .constraints(&boundaries, BodiesAt { poses, shapes: &shapes });
+        let bodies = MeshedBodies {
+            at: BodiesAt { poses, shapes: &shapes },
+            rest_places: RestPlaces::new(),
+        };
+        Self::with_bodies(problem, mesh, bodies, unknown_frame, choice)
+    }
+
+    /// The same with bodies that may have coordinates.
+    #[must_use]
+    pub fn with_bodies(
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        bodies: MeshedBodies<'_>,
+        unknown_frame: bool,
+        choice: SolverChoice,
+    ) -> Self {
+        let MeshedBodies { at, rest_places } = bodies;
+        let modes = problem.modes();
+        let layout = DofLayout::new(mesh, problem.bodies.len(), modes.len())
+            .with_coordinates(problem.n_coordinates());
+        let boundaries = Boundaries::new(mesh);
+        let constraints = Constrainer { problem, mesh, layout: &layout, rest_places: &rest_places }
+            .constraints(&boundaries, at);
         let frame = problem.frame.filter(|_| unknown_frame);
         let assembly = Assembly::new(
             mesh,
@@ -114,7 +146,9 @@ impl<const D: usize> FluidSystem<D> {
         let driven = problem.mean_flow.as_ref();
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
         let saddle_point = saddle_point(&layout, &constraints, modes);
-        let linear = system_solver(&assembly, &constraints, saddle_point, choice);
+        let blocks = blocks_of_bodies(problem, &layout, &constraints);
+        let system = NewSystem { constraints: &constraints, saddle_point, blocks };
+        let linear = system_solver(&assembly, system, choice);
         let is_free = free_velocities(&layout, problem.bodies.len(), modes, &constraints);
         Self {
             layout,
@@ -123,6 +157,7 @@ impl<const D: usize> FluidSystem<D> {
             numbering: Numbering { choice, frame, is_free },
             n_unknowns: constraints.n_unknowns(),
             modes,
+            rest_places,
             facet_rule: FacetRule::new(problem.metric),
             assembly,
             linear,
@@ -187,6 +222,7 @@ impl<const D: usize> FluidSystem<D> {
             mesh,
             boundaries: &self.boundaries,
             rule: &self.facet_rule,
+            metric: problem.metric,
             viscosity: problem.viscosity,
             fields: solution.fields(),
         }
@@ -230,7 +266,8 @@ impl<const D: usize> FluidSystem<D> {
         mesh: &Mesh<D>,
         bodies: BodiesAt<'_>,
     ) -> AffineConstraints {
-        Constrainer { problem, mesh, layout: &self.layout }.constraints(&self.boundaries, bodies)
+        let Self { layout, rest_places, boundaries, .. } = self;
+        Constrainer { problem, mesh, layout, rest_places }.constraints(boundaries, bodies)
     }
 
     /// Takes note that the mesh has moved.
@@ -243,43 +280,6 @@ impl<const D: usize> FluidSystem<D> {
         if problem.mean_flow.is_some() {
             self.cell = Some(CellIntegrals::new(problem, mesh, self.assembly.tables()));
         }
-    }
-
-    /// The raw residual of the fluid's equations at a solution.
-    #[must_use]
-    pub fn fluid_residual(
-        &self,
-        at: &Configuration<'_, D>,
-        terms: &FlowTerms<'_, D>,
-        solution: &Solution<D>,
-    ) -> Vec<f64> {
-        let mut raw = residual(&self.assembly, at.mesh, terms, &solution.fields());
-        if let Some(cell) = &self.cell {
-            let force = solution.pressure_gradient - at.mean_flow.body_force;
-            cell.add(&self.layout, self.modes, [&force, &Point::<D>::zeros()], &mut raw);
-        }
-        raw
-    }
-
-    /// P^T R: the residual of fluid and bodies on the free unknowns, from that of the fluid.
-    #[must_use]
-    pub fn reduced_residual(
-        &self,
-        at: &Configuration<'_, D>,
-        solution: &Solution<D>,
-        fluid: &[f64],
-    ) -> Vec<f64> {
-        let mut raw = fluid.to_vec();
-        if at.problem.is_enclosed() {
-            self.pressure.make_compatible(&mut raw[self.layout.pressures()]);
-        }
-        let row = |body: usize, position: usize| self.layout.rigid(body, position);
-        at.bodies.add_residual(&solution.twists, self.modes, row, &mut raw);
-        if let Some(cell) = &self.cell {
-            let force = solution.pressure_gradient;
-            cell.add(&self.layout, self.modes, [&Point::<D>::zeros(), &force], &mut raw);
-        }
-        at.constraints.restrict(&raw)
     }
 
     /// One Newton step: assembles and factorises the Jacobian at `solution` and returns the next
@@ -304,13 +304,20 @@ impl<const D: usize> FluidSystem<D> {
             self.linear.assemble(&mut |scatter| {
                 assemble(assembly, at.mesh, at.constraints, terms, &fields, scatter);
             });
-            self.add_rigid_matrix(at);
+            self.add_body_matrix(at, &solution.rates);
         });
         if let Some(nullspace) = &self.nullspace {
             nullspace.check_balance(at.bodies, &at.mean_flow)?;
         }
+        let local = match &terms.viscosity {
+            ViscosityTerm::Local(local) => Some(local),
+            ViscosityTerm::Constant(_) => None,
+        };
+        if local.is_some() {
+            self.linear.forget_weights();
+        }
         let coefficients = Coefficients {
-            viscosity: terms.viscosity,
+            viscosity: terms.viscosity.constant().unwrap_or_default(),
             inertia: terms.density * terms.rate,
             has_convection: terms.convection != Convection::None,
         };
@@ -319,6 +326,7 @@ impl<const D: usize> FluidSystem<D> {
             layout: &self.layout,
             constraints: at.constraints,
             tables: self.assembly.tables(),
+            local,
         };
         self.linear.prepare(coefficients, &|| discretised.weights(coefficients), timing);
         self.linear.recall_with_weights()?;

@@ -1,9 +1,11 @@
-//! Rigid velocities in the linear system: their equations, and which of them are unknowns.
+//! Velocities of bodies in the linear system: their equations, and which of them are unknowns.
+
+use std::ops::Range;
 
 use alewife_mesh::Mesh;
 
 use super::super::constrain::BodiesAt;
-use super::super::linear_system::{saddle_point, system_solver};
+use super::super::linear_system::{NewSystem, saddle_point, system_solver};
 use super::super::problem::{Drive, Problem};
 use super::super::shapes::BodyShapes;
 use super::numbering::free_velocities;
@@ -11,6 +13,7 @@ use super::{Configuration, FluidSystem};
 use crate::algebra::{AffineConstraints, Term};
 use crate::body::Pose;
 use crate::flow::Assembly;
+use crate::space::DofLayout;
 
 impl<const D: usize> FluidSystem<D> {
     /// Makes the system one for these constraints: where joints have turned so that other velocities of
@@ -37,7 +40,9 @@ impl<const D: usize> FluidSystem<D> {
         self.assembly = Assembly::new(mesh, layout, constraints, problem.metric, &sides, frame);
         let saddle_point = saddle_point(&layout, constraints, self.modes);
         let choice = self.numbering.choice;
-        self.linear = system_solver(&self.assembly, constraints, saddle_point, choice);
+        let blocks = blocks_of_bodies(problem, &layout, constraints);
+        let system = NewSystem { constraints, saddle_point, blocks };
+        self.linear = system_solver(&self.assembly, system, choice);
         self.n_unknowns = constraints.n_unknowns();
         self.numbering.is_free = is_free;
     }
@@ -68,8 +73,8 @@ impl<const D: usize> FluidSystem<D> {
         })
     }
 
-    /// Adds what Newton's and Euler's equations have of the matrix.
-    pub(super) fn add_rigid_matrix(&mut self, at: &Configuration<'_, D>) {
+    /// Adds what the equations of bodies have of the matrix at rates of coordinates.
+    pub(super) fn add_body_matrix(&mut self, at: &Configuration<'_, D>, rates: &[f64]) {
         let layout = self.layout;
         let row = |body: usize, position: usize| at.constraints.row(layout.rigid(body, position));
         let modes = self.modes;
@@ -80,6 +85,9 @@ impl<const D: usize> FluidSystem<D> {
                         equation.inertia[(one.index(), other.index())] * at.bodies.rate;
                     if i == j {
                         factor += equation.resistance[one];
+                    }
+                    if let Some(resistance) = equation.magnetic_resistance(one, other) {
+                        factor += resistance;
                     }
                     self.linear.add_product(row(body, i), row(body, j), factor);
                 }
@@ -96,5 +104,31 @@ impl<const D: usize> FluidSystem<D> {
             }
             self.linear.add_product(&rate, &rate, joint.resistance);
         }
+        for equation in &at.bodies.flexible {
+            let row = |own: usize| at.constraints.row(layout.rate(equation.first + own));
+            let tangent = equation.tangent(rates);
+            for (j, column) in tangent.column_iter().enumerate() {
+                for (i, factor) in column.iter().enumerate() {
+                    self.linear.add_product(row(i), row(j), *factor);
+                }
+            }
+        }
     }
+}
+
+/// The unknowns that rates of the coordinates of each body depend on, which couple with each other.
+pub(super) fn blocks_of_bodies<const D: usize>(
+    problem: &Problem<D>,
+    layout: &DofLayout<D>,
+    constraints: &AffineConstraints,
+) -> Vec<Vec<u32>> {
+    let ranges = problem.coordinates().into_iter().filter(|own| !own.is_empty());
+    let block = |own: Range<usize>| {
+        let rows = own.flat_map(|coordinate| constraints.row(layout.rate(coordinate)));
+        let mut unknowns: Vec<u32> = rows.map(|term| term.unknown).collect();
+        unknowns.sort_unstable();
+        unknowns.dedup();
+        unknowns
+    };
+    ranges.map(block).collect()
 }

@@ -104,7 +104,7 @@ fn centroid(model: &Model, bodies: &[RigidBody], body: usize) -> Vector3<f64> {
 }
 
 /// The values of a stroke.
-fn value_of(stroke: Stroke) -> TimeValue {
+pub(super) fn value_of(stroke: Stroke) -> TimeValue {
     Box::new(move |time| stroke.at(time)[0])
 }
 

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod joints;
+mod magnets;
 mod motion_settings;
 mod shape_motion;
 mod sides;
@@ -12,6 +13,7 @@ use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 
 use self::bodies::rigid_body;
 use self::joints::add_joint;
+use self::magnets::add_magnets;
 pub use self::motion_settings::motion_settings;
 pub use self::shape_motion::{BodyRecoil, recoils, shape_motion};
 use self::sides::side;
@@ -21,12 +23,14 @@ pub(super) use self::solid::no_solid;
 use super::RunError;
 use crate::body::{Orientation, Pose};
 use crate::case::{
-    Case, ContactSpec, FlowModel, Geometry, MeanFlowSpec, Model, Stroke, SwimmerModel, TimeSettings,
+    Case, ContactSpec, FlowModel, Geometry, MeanFlowSpec, Model, ShearLaw, Stroke, SwimmerModel,
+    TimeSettings, ViscositySpec,
 };
 use crate::contact::{ContactError, Dissipation, Law, LawKind};
 use crate::coupling::{
     BodyShapes, Group, MeanFlow, MeanFlowAlong, Problem, RateDiscontinuities, Side,
 };
+use crate::flow::{Plateaus, Viscosity, YieldLaw};
 use crate::space::Metric;
 use crate::time::factor_at;
 
@@ -90,11 +94,12 @@ pub fn build_problem<const D: usize>(
     for joint in &model.joints {
         add_joint(model, joint, &mut bodies)?;
     }
+    add_magnets(model, &mut bodies);
     let has_inertia = case.fluid.model != FlowModel::Stokes;
     let mut problem = Problem {
         metric,
         density: if has_inertia { case.fluid.density } else { 0.0 },
-        viscosity: case.fluid.viscosity,
+        viscosity: viscosity(&case.fluid.viscosity),
         has_inertia,
         has_convection: case.fluid.model == FlowModel::NavierStokes,
         sides,
@@ -121,6 +126,35 @@ pub fn build_problem<const D: usize>(
         }
     }
     Ok(problem)
+}
+
+/// The viscosity of the fluid.
+fn viscosity(spec: &ViscositySpec) -> Viscosity {
+    let plateaus = |law: &crate::case::Plateaus| Plateaus {
+        zero: law.zero,
+        infinite: law.infinite,
+        time: law.time,
+        index: law.index,
+    };
+    match spec {
+        ViscositySpec::Newtonian(value) => Viscosity::Newtonian(*value),
+        ViscositySpec::Law(ShearLaw::Carreau(law)) => Viscosity::Carreau(plateaus(law)),
+        ViscositySpec::Law(ShearLaw::Cross(law)) => Viscosity::Cross(plateaus(law)),
+        ViscositySpec::Law(ShearLaw::PowerLaw(law)) => Viscosity::HerschelBulkley(YieldLaw {
+            yield_stress: 0.0,
+            consistency: law.consistency,
+            index: law.index,
+            least_rate: law.regularised,
+        }),
+        ViscositySpec::Law(ShearLaw::HerschelBulkley(law)) => {
+            Viscosity::HerschelBulkley(YieldLaw {
+                yield_stress: law.yield_stress,
+                consistency: law.consistency,
+                index: law.index,
+                least_rate: law.regularised,
+            })
+        }
+    }
 }
 
 /// What drives the fluid along periodic directions.

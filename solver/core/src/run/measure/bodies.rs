@@ -8,6 +8,7 @@ use crate::case::{BodyQuantity, Case, Geometry, JointQuantity};
 use crate::coupling::{
     BodyLoads, BodyShapes, BodyStates, JointReport, Problem, RigidBody, ShapeError, joint_reports,
 };
+use crate::gait::RecoilCorrection;
 use crate::run::RunError;
 use crate::run::simulation::Simulation;
 use crate::run::snapshot::BodyReport;
@@ -38,6 +39,27 @@ impl Coefficients {
     }
 }
 
+/// What a field does to a body with a magnetic moment.
+pub(super) struct MagneticReport {
+    /// Force and torque of the field.
+    load: Wrench,
+    /// Angle from the moment to the field (rad).
+    lag: f64,
+}
+
+impl MagneticReport {
+    /// Of a body, if it has a moment.
+    pub(super) fn of<const D: usize>(
+        problem: &Problem<D>,
+        state: &State<D>,
+        body: usize,
+    ) -> Option<Self> {
+        let (magnet, pose) = (problem.bodies[body].magnet.as_ref()?, &state.poses[body]);
+        let lag = magnet.lag(state.time, pose, D == 2);
+        Some(Self { load: magnet.load(state.time, pose), lag })
+    }
+}
+
 /// A body as it moves, with its loads.
 pub(super) struct BodyMotion<'a> {
     pub report: &'a BodyReport,
@@ -45,9 +67,14 @@ pub(super) struct BodyMotion<'a> {
     pub angle: f64,
     pub acceleration: &'a Twist,
     pub coefficients: &'a Coefficients,
+    pub magnetic: Option<MagneticReport>,
 }
 
 impl BodyMotion<'_> {
+    fn magnetic_load(&self) -> Option<Wrench> {
+        self.magnetic.as_ref().map(|report| report.load)
+    }
+
     pub(super) fn value(&self, quantity: BodyQuantity) -> Value {
         let BodyReport { pose, twist, load, surface_load, contact, power, .. } = self.report;
         match quantity {
@@ -68,6 +95,15 @@ impl BodyMotion<'_> {
             BodyQuantity::LiftCoefficient => (load.force.y * self.coefficients.force).into(),
             BodyQuantity::SideCoefficient => (load.force.z * self.coefficients.force).into(),
             BodyQuantity::MomentCoefficient => (load.torque.z * self.coefficients.moment).into(),
+            BodyQuantity::MagneticTorque => Value::of(self.magnetic_load().map(|load| load.torque)),
+            BodyQuantity::MagneticForce => Value::of(self.magnetic_load().map(|load| load.force)),
+            BodyQuantity::MagneticLag => {
+                self.magnetic.as_ref().map_or(f64::NAN, |report| report.lag).into()
+            }
+            BodyQuantity::MagneticPower => {
+                let power = |load: Wrench| load.to_vector().dot(&twist.to_vector());
+                self.magnetic_load().map_or(f64::NAN, power).into()
+            }
             BodyQuantity::ContactForce => contact.force.into(),
             BodyQuantity::ContactTorque => contact.torque.into(),
         }
@@ -108,10 +144,18 @@ pub(super) fn body_reports<const D: usize>(
             friction: stress.friction(rigid.boundary),
             contact: state.contact.wrenches[body],
             power: loads[body].power,
-            recoil: rigid.deformed_at(state.time)?.map(|deformed| deformed.recoil),
+            recoil: recoil(rigid, state.time)?,
         })
     };
     problem.bodies.iter().enumerate().map(report).collect()
+}
+
+/// What is subtracted from the gait of a body that deforms by itself.
+fn recoil(rigid: &RigidBody, time: f64) -> Result<Option<RecoilCorrection>, ShapeError> {
+    if rigid.flexible().is_some() {
+        return Ok(None);
+    }
+    Ok(rigid.deformed_at(time, &[])?.map(|deformed| deformed.recoil))
 }
 
 /// The joints of all bodies, in the order of their children.
@@ -130,7 +174,7 @@ pub(in crate::run) fn measure_joints<const D: usize>(
     let loads: Vec<Wrench> =
         loads.iter().zip(contact).map(|(fluid, contact)| fluid.load + *contact).collect();
     let now = BodyStates {
-        shapes: &BodyShapes::at(&problem.bodies, state.time)?,
+        shapes: &BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?,
         poses: &state.poses,
         twists: &state.now.twists,
         accelerations: &state.accelerations,

@@ -7,6 +7,7 @@ use super::momentum::FluidMomentum;
 use super::value::Value;
 use crate::case::FlowQuantity;
 use crate::coupling::{MeanFlowReport, Problem, SurfaceLoads};
+use crate::flow::Viscosity;
 use crate::run::simulation::{CellCrossing, Simulation};
 use crate::state::EnergyRecord;
 
@@ -34,7 +35,7 @@ pub(in crate::run) struct FlowMeasurement {
     crossing: Option<CellCrossing>,
     /// The last step (s).
     last_step: f64,
-    /// Density over viscosity (s/m2).
+    /// Density over viscosity, the least in the fluid (s/m2).
     density_over_viscosity: f64,
     /// Smallest gap between bodies and walls (m).
     minimum_gap: f64,
@@ -54,7 +55,10 @@ impl FlowMeasurement {
         let tables = work.system.tables();
         let sums = Integrals::over_fluid(problem, &state.mesh, &state.now.velocity, tables);
         Self {
-            dissipation: 2.0 * problem.viscosity * sums.squared_rate,
+            dissipation: match problem.viscosity {
+                Viscosity::Newtonian(viscosity) => 2.0 * viscosity * sums.squared_rate,
+                _ => sums.dissipation,
+            },
             kinetic_energy: 0.5 * problem.density * sums.squared_speed,
             momentum: problem.metric.total_force(&sums.velocity) * problem.density,
             squared_speed: sums.squared_speed,
@@ -67,7 +71,10 @@ impl FlowMeasurement {
                 .has_convection
                 .then(|| crossing.unwrap_or_else(|| simulation.cell_crossing())),
             last_step: state.last_step,
-            density_over_viscosity: problem.density / problem.viscosity,
+            density_over_viscosity: match problem.viscosity {
+                Viscosity::Newtonian(viscosity) => problem.density / viscosity,
+                _ => problem.density / sums.least_viscosity,
+            },
             minimum_gap: state.contact.minimum_gap.map_or(f64::INFINITY, |minimum| minimum.gap),
             contact: [state.contact.energy, state.contact.energy_made],
             cells: state.mesh.n_cells(),
@@ -93,12 +100,14 @@ impl FlowMeasurement {
     ) -> EnergyRecord {
         let dimension = if problem.metric.is_revolved() { 3.0 } else { D as f64 };
         let squared_size = self.volume.powf(2.0 / dimension);
+        let squared_rate = self.squared_speed / self.volume / squared_size;
         EnergyRecord {
             time,
             power: loads.power() + self.mean_flow.map_or(0.0, |report| report.power),
             dissipation: self.dissipation,
             kinetic_energy: self.kinetic_energy,
-            dissipation_scale: problem.viscosity * self.squared_speed / squared_size,
+            dissipation_scale: problem.viscosity.at(squared_rate).value * self.squared_speed
+                / squared_size,
         }
     }
 

@@ -5,6 +5,7 @@ use nalgebra::SMatrix;
 use rayon::prelude::*;
 
 use crate::coupling::Problem;
+use crate::flow::{Viscosity, squared_shear};
 use crate::space::{CellValues, Tables};
 
 /// Cells that are summed up on their own, whatever the number of threads.
@@ -15,6 +16,10 @@ const CELLS_PER_TASK: usize = 256;
 pub(super) struct Integrals<const D: usize> {
     /// int D : D, for the rate of strain D (m3/s2; m2/s2 planar).
     pub squared_rate: f64,
+    /// int 2 mu D : D (W), of a viscosity that depends on the rate of shear only.
+    pub dissipation: f64,
+    /// Its least viscosity (Pa s).
+    pub least_viscosity: f64,
     /// int u^2 (m5/s2; m4/s2 planar).
     pub squared_speed: f64,
     /// int u (m4/s; m3/s planar).
@@ -51,6 +56,13 @@ impl<const D: usize> Integrals<D> {
                     }
                     let rate = (gradient + gradient.transpose()) / 2.0;
                     let stretch = problem.metric.hoop_strain(&value, &at.position);
+                    if !problem.viscosity.is_newtonian() {
+                        sums.add_shear(
+                            &problem.viscosity,
+                            squared_shear(&gradient, stretch),
+                            at.dx,
+                        );
+                    }
                     sums.squared_rate += (rate.norm_squared() + stretch * stretch) * at.dx;
                     sums.squared_speed += value.norm_squared() * at.dx;
                     sums.velocity += value * at.dx;
@@ -64,9 +76,18 @@ impl<const D: usize> Integrals<D> {
         tasks.iter().fold(Self::zero(), Self::plus)
     }
 
+    /// Adds a point of a square of the rate of shear (1/s2).
+    fn add_shear(&mut self, law: &Viscosity, squared_rate: f64, dx: f64) {
+        let viscosity = law.at(squared_rate).value;
+        self.dissipation += viscosity * squared_rate * dx;
+        self.least_viscosity = self.least_viscosity.min(viscosity);
+    }
+
     fn zero() -> Self {
         Self {
             squared_rate: 0.0,
+            dissipation: 0.0,
+            least_viscosity: f64::INFINITY,
             squared_speed: 0.0,
             velocity: Point::zeros(),
             divergence: 0.0,
@@ -77,6 +98,8 @@ impl<const D: usize> Integrals<D> {
     fn plus(self, other: &Self) -> Self {
         Self {
             squared_rate: self.squared_rate + other.squared_rate,
+            dissipation: self.dissipation + other.dissipation,
+            least_viscosity: self.least_viscosity.min(other.least_viscosity),
             squared_speed: self.squared_speed + other.squared_speed,
             velocity: self.velocity + other.velocity,
             divergence: self.divergence + other.divergence,

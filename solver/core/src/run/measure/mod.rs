@@ -14,7 +14,7 @@ mod value;
 use alewife_mesh::{Mesh, Point};
 
 pub(super) use self::bodies::measure_joints;
-use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value};
+use self::bodies::{BodyMotion, Coefficients, MagneticReport, body_reports, joint_value};
 pub(super) use self::flow::FlowMeasurement;
 use self::momentum::momentum_record;
 use self::probes::Probes;
@@ -114,10 +114,11 @@ impl<const D: usize> Measure<D> {
         let bodies = body_reports(simulation, &loads.bodies)?;
         let mut flow = FlowMeasurement::new(simulation, crossing);
         let Simulation { problem, state, moving_mesh, .. } = simulation;
-        let own_poses = state.in_own_frame(problem, &state.poses);
-        let minimum_gap = |group: &Group| {
-            moving_mesh.as_ref()?.gaps().minimum_gap_among(&own_poses, &group.bodies)
-        };
+        // One body has no gaps of its own
+        let has_gaps = problem.groups.iter().any(|group| group.bodies.len() > 1);
+        let moving = moving_mesh.as_ref().filter(|_| has_gaps);
+        let gaps = moving.map(|moving| moving.present_gaps(problem, state)).transpose()?;
+        let minimum_gap = |group: &Group| gaps.as_ref()?.minimum_gap_among(&group.bodies);
         let joints = measure_joints(problem, state, &loads.bodies)?;
         let groups = problem.groups.iter().zip(&state.propulsion);
         let swimmers: Vec<_> = groups
@@ -134,6 +135,7 @@ impl<const D: usize> Measure<D> {
                 angle: state.poses[body].angle(),
                 acceleration: &state.accelerations[body],
                 coefficients: &self.coefficients,
+                magnetic: MagneticReport::of(problem, state, body),
             }
             .value(quantity),
             Source::Joint(joint, quantity) => joint_value(&joints[joint], quantity),

@@ -20,11 +20,12 @@ pub(super) fn moving_mesh_of(
     reference: &Reference<'_, 2>,
 ) -> Result<MovingMesh<2>, RunError> {
     let Reference { saved, mesh } = reference;
-    let shapes = BodyShapes::at(&problem.bodies, saved.time)?;
+    let shapes = BodyShapes::with(&problem.bodies, saved.time, &saved.coordinates)?;
     let planar = Arc::new(PlanarCase::new(model, problem)?);
     let settings = planar.motion.clone();
     let poses = saved.poses.clone();
     let scene =
         PlanarScene::restored(planar, mesh, poses.clone(), &shapes).map_err(ResumeError::from)?;
-    Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, saved.time)?)
+    let moving = MovingMesh::new(mesh, Box::new(scene), settings, poses, saved.time)?;
+    Ok(moving.with_coordinates(saved.coordinates.clone()))
 }

@@ -1,6 +1,6 @@
 //! `PlanarScene`: domain and outlines of the bodies of a planar or axisymmetric mesh.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use alewife_mesh::{
@@ -15,7 +15,7 @@ use crate::contact::{Gaps, PlanarGaps};
 use crate::coupling::BodyShapes;
 use crate::gait::{DeformedOutline, WavingSheet};
 use crate::motion::{Fresh, RigidMove, needs_remesh};
-use crate::motion::{Meshed, PosesByShift, RemeshError, Scene};
+use crate::motion::{Meshed, PosesByShift, RemeshError, RestPlace, Scene};
 
 /// Domain and bodies as they were meshed.
 #[derive(Debug)]
@@ -24,12 +24,19 @@ pub(in crate::run) struct PlanarScene {
     /// Bodies in the mesh.
     shapes: Vec<PlacedShape>,
     /// Parameters on the outlines of bodies that deform, by node.
-    materials: HashMap<NodeId, f64>,
+    materials: BTreeMap<NodeId, OnOutline>,
     /// Sheet of each boundary.
     sheets: Vec<Option<WavingSheet>>,
     fresh: Fresh,
     surroundings: GapQuery,
     gaps: PlanarGaps,
+}
+
+/// A point of the outline of a body that deforms.
+#[derive(Debug, Clone, Copy)]
+struct OnOutline {
+    body: usize,
+    parameter: f64,
 }
 
 /// A body of this shape with a pose.
@@ -96,7 +103,7 @@ fn materials(
     mesh: &Mesh<2>,
     shapes: &[PlacedShape],
     poses: &[Pose],
-) -> Result<HashMap<NodeId, f64>, RemeshError> {
+) -> Result<BTreeMap<NodeId, OnOutline>, RemeshError> {
     let outline = |body: usize| {
         let outline =
             || Outline::new(&placed(&shapes[body], shapes[body].shape.clone(), &poses[body]));
@@ -104,12 +111,13 @@ fn materials(
     };
     let outlines: Vec<Option<Outline>> =
         (0..shapes.len()).map(outline).collect::<Result<_, _>>()?;
-    let mut materials = HashMap::new();
+    let mut materials = BTreeMap::new();
     for facet in &mesh.facets {
         let BoundaryKind::Body(body) = mesh.boundaries[facet.boundary].kind else { continue };
         let Some(outline) = &outlines[body] else { continue };
         for node in mesh.facet_nodes(facet) {
-            materials.entry(node).or_insert_with(|| outline.parameter_of(mesh.nodes[node]));
+            let at = || OnOutline { body, parameter: outline.parameter_of(mesh.nodes[node]) };
+            materials.entry(node).or_insert_with(at);
         }
     }
     Ok(materials)
@@ -136,8 +144,16 @@ impl Scene<2> for PlanarScene {
         body: usize,
         shapes: &BodyShapes,
     ) -> Option<Vector3<f64>> {
-        let at = shapes.deformed(body)?.position(*self.materials.get(&node)?);
+        let at = shapes.deformed(body)?.position(self.materials.get(&node)?.parameter);
         Some(Vector3::new(at.x, at.y, 0.0))
+    }
+
+    fn rest_places(&self, shapes: &BodyShapes) -> Vec<RestPlace> {
+        let place = |(node, at): (&NodeId, &OnOutline)| {
+            let place = shapes.deformed(at.body)?.rest_place(at.parameter)?;
+            Some(RestPlace { node: *node, body: at.body, place })
+        };
+        self.materials.iter().filter_map(place).collect()
     }
 
     /// Up and down: where the nodes are along the curve makes no difference.

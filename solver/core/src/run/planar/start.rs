@@ -45,7 +45,8 @@ fn initial(meshed: MeshedCase) -> InitialMesh<2> {
         let moving = || -> Result<_, RemeshError> {
             let scene = PlanarScene::new(Arc::clone(&planar), mesh, shapes, &poses)?;
             let settings = planar.motion.clone();
-            Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, 0.0)?)
+            let moving = MovingMesh::new(mesh, Box::new(scene), settings, poses, 0.0)?;
+            Ok(moving.with_coordinates(problem.initial_coordinates()))
         };
         moving().map_err(RunError::from_remesh)
     });

@@ -12,13 +12,13 @@ use serde::{Deserialize, Serialize};
 pub use self::error::{ResumeError, VERSION};
 use self::longer::agrees_with_past;
 use self::series::SavedSeries;
-use super::simulation::Simulation;
+use super::simulation::{Simulation, fluid_system};
 use super::step_control::StepControl;
 use super::{RunError, Series};
 use crate::algebra::SolverMemory;
 use crate::body::Pose;
 use crate::case::{Case, Recording};
-use crate::coupling::{FluidSystem, Problem};
+use crate::coupling::Problem;
 use crate::motion::MovingMesh;
 use crate::state::{State, is_consistent};
 
@@ -44,6 +44,8 @@ pub struct SavedReference<const D: usize> {
     pub nodes: Vec<Point<D>>,
     /// Poses of the bodies.
     pub poses: Vec<Pose>,
+    /// Coordinates of the bodies that have some.
+    pub coordinates: Vec<f64>,
     /// The time it is made for (s).
     pub time: f64,
 }
@@ -53,6 +55,7 @@ impl<const D: usize> SavedReference<D> {
         Self {
             nodes: moving.reference().to_vec(),
             poses: moving.reference_poses().to_vec(),
+            coordinates: moving.reference_coordinates().to_vec(),
             time: moving.reference_time(),
         }
     }
@@ -151,9 +154,9 @@ impl<const D: usize> SavedState<D> {
             (None, None) => None,
             _ => return Err(ResumeError::MeshMotion.into()),
         };
-        let poses = state.in_mesh(&state.poses);
+        let moving = simulation.moving_mesh.as_ref();
         let unknown_frame = simulation.scheme.unknown_frame;
-        simulation.work.system = FluidSystem::new(problem, &state.mesh, &poses, unknown_frame);
+        simulation.work.system = fluid_system(problem, &state, moving, unknown_frame)?;
         simulation.work.system.recall(self.solver.clone()).map_err(ResumeError::from)?;
         simulation.work.mesh = state.mesh.clone();
         simulation.control = self.control.clone();
@@ -198,14 +201,17 @@ impl<const D: usize> SavedState<D> {
         let state = &self.state;
         let (n_nodes, n_bodies) = (state.nodes.len(), problem.bodies.len());
         let n_vertices = state.mesh.n_vertices;
+        let n_coordinates = problem.n_coordinates();
         let fits = is_consistent(&state.mesh, n_nodes, n_boundaries)
             && [&state.nodes_before, &state.rates].iter().all(|values| values.len() == n_nodes)
             && [&state.now, &state.previous].iter().all(|level| {
                 level.velocity.len() == n_nodes
                     && level.pressure.len() == n_vertices
                     && level.twists.len() == n_bodies
+                    && level.rates.len() == n_coordinates
             })
             && [&state.poses, &state.previous_poses].iter().all(|poses| poses.len() == n_bodies)
+            && state.shapes.is_of(n_coordinates)
             && state.accelerations.len() == n_bodies
             && state.twist_rates.len() == n_bodies
             && state.image_shifts.len() == n_bodies
@@ -213,7 +219,9 @@ impl<const D: usize> SavedState<D> {
             && self.series.is_consistent()
             && state.propulsion.len() == problem.groups.len()
             && self.reference.as_ref().is_none_or(|reference| {
-                reference.nodes.len() == n_nodes && reference.poses.len() == n_bodies
+                reference.nodes.len() == n_nodes
+                    && reference.poses.len() == n_bodies
+                    && reference.coordinates.len() == n_coordinates
             });
         if !fits {
             return Err(ResumeError::Inconsistent);

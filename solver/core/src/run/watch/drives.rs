@@ -203,7 +203,10 @@ impl<const D: usize> Simulation<D> {
                 [0, 3].map(|first| external.fixed_rows::<3>(first).into_owned().norm());
             let motor =
                 body.joint.as_ref().map_or(0.0, |joint| motor_load(joint, radius, state.time));
-            let load = force + torque / radius + motor;
+            // However it is turned: the torque of a field that it is turned along may be any later
+            let magnet = body.magnet.as_ref();
+            let magnetic = magnet.map_or(0.0, |magnet| magnet.largest_torque(state.time, pose));
+            let load = force + (torque + magnetic) / radius + motor;
             LoadStep { load, acceleration: load / mass }
         };
         problem.bodies.iter().zip(&state.poses).map(step).collect()
@@ -233,7 +236,8 @@ impl<const D: usize> Simulation<D> {
             } else {
                 PI * radius * radius
             };
-            let slow = history.largest / (2.0 * PI * problem.viscosity * area / radius);
+            let viscosity = problem.viscosity.at_stress(history.largest / (2.0 * PI * area));
+            let slow = history.largest / (2.0 * PI * viscosity * area / radius);
             let fast = (2.0 * history.largest / (LOW_DRAG * density * area)).sqrt();
             let terminal = slow.min(fast);
             if is_steady { terminal } else { terminal.min(history.free_fall) }
@@ -241,7 +245,9 @@ impl<const D: usize> Simulation<D> {
         let loads = bodies.fold(0.0, f64::max);
         // Between walls as far apart as the domain is long
         let extent = self.extent();
-        let viscous = supply.largest_gradient * density * extent * extent / problem.viscosity;
+        let pull = supply.largest_gradient * density * extent;
+        let viscosity = problem.viscosity.at_stress(pull);
+        let viscous = supply.largest_gradient * density * extent * extent / viscosity;
         let gradient = if is_steady { viscous } else { viscous.min(supply.gradient_speed) };
         supply.given_speed + loads + gradient + supply.initial_speed
     }
@@ -259,6 +265,7 @@ impl<const D: usize> Simulation<D> {
         let Self { problem, state, .. } = self;
         let of_body = |(index, body): (usize, &RigidBody)| {
             body.inertia.kinetic_energy(&state.poses[index], &state.now.twists[index])
+                + problem.kinetic_energy_of_coordinates(index, &state.now.rates)
         };
         let (bodies, counted) = (problem.bodies.iter().enumerate(), self.counted());
         bodies.filter(|(index, _)| counted[*index]).map(of_body).sum()
@@ -279,6 +286,7 @@ impl<const D: usize> Simulation<D> {
                 let way = state.poses[index].displacement_from(&spring.rest);
                 energy += 0.5 * spring.stiffness.component_mul(&way).dot(&way);
             }
+            energy += problem.elastic_energy(index, &state.shapes.now, state.time);
         }
         let no_loads = SurfaceLoads::none(problem.bodies.len()).bodies;
         for joint in measure_joints(problem, state, &no_loads)? {

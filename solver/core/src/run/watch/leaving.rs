@@ -2,7 +2,7 @@
 
 use crate::case::{Unsteady, Until};
 use crate::contact::Partner;
-use crate::coupling::{BodyShapes, Drive, RigidBody, Side};
+use crate::coupling::{Drive, RigidBody, Side};
 use crate::run::RunError;
 use crate::run::run::Run;
 
@@ -33,10 +33,9 @@ impl<const D: usize> Run<'_, D> {
         let crate::run::Simulation { problem, state, moving_mesh, .. } = &self.simulation;
         let mut leaving = vec![None; problem.bodies.len()];
         let Some(moving) = moving_mesh else { return Ok(leaving) };
-        let shapes = BodyShapes::at(&problem.bodies, state.time)?;
-        let gaps = moving.gaps_at(&shapes);
+        let gaps = moving.present_gaps(problem, state)?;
         let mut nearest = vec![distance; problem.bodies.len()];
-        for pair in gaps.pairs(&state.in_mesh(&state.poses), distance) {
+        for pair in gaps.pairs(distance) {
             let Partner::Wall(side) = pair.partner else { continue };
             let is_open = problem.sides[side].as_ref().is_some_and(Side::is_open);
             if is_open && pair.gap < nearest[pair.body] {

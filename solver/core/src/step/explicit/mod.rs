@@ -206,7 +206,8 @@ impl<const D: usize> TimeStepper<'_, D> {
         let seen = state.in_own_frame(self.problem, poses);
         let contact = self.contact.zip(step.gaps());
         let contact = contact.map(|(law, gaps)| StageContact::new(law, gaps, &seen)).transpose()?;
-        let configuration = step.place(work, poses.to_vec())?;
+        let placement = step.placement(poses.to_vec(), Vec::new())?;
+        let configuration = step.place(work, placement)?;
         let flow = step.solve_flow(work, &configuration, Guess::new(guess.clone()), false)?;
         let mut flow = FlowUnderLoads::new(&step, &configuration, work, flow);
         if let Some(contact) = &contact {
@@ -258,6 +259,8 @@ impl<const D: usize> TimeStepper<'_, D> {
             solution: flow.solution,
             nodes: flow.nodes,
             rates: None,
+            coordinates: Vec::new(),
+            coordinate_accelerations: Vec::new(),
             poses,
             contact,
         })

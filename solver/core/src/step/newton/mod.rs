@@ -17,8 +17,12 @@ pub(super) trait FlowEquations<const D: usize> {
     /// What convects at the nodes (m/s); none without convection.
     fn convecting_velocity(&self, solution: &Solution<D>) -> Vec<Point<D>>;
 
-    /// The terms with this convecting velocity.
-    fn terms<'a>(&'a self, convecting_velocity: &'a [Point<D>]) -> FlowTerms<'a, D>;
+    /// The terms with this convecting velocity, linearised at a solution.
+    fn terms<'a>(
+        &'a self,
+        convecting_velocity: &'a [Point<D>],
+        solution: &'a Solution<D>,
+    ) -> FlowTerms<'a, D>;
 
     /// Called with each residual, relative to the scale of the criterion.
     fn on_iteration(&self, _iteration: usize, _residual: f64) {}
@@ -37,7 +41,7 @@ pub(super) fn flow_residual<const D: usize>(
     solution: &Solution<D>,
 ) -> Vec<f64> {
     let convecting_velocity = equations.convecting_velocity(solution);
-    system.fluid_residual(at, &equations.terms(&convecting_velocity), solution)
+    system.fluid_residual(at, &equations.terms(&convecting_velocity, solution), solution)
 }
 
 /// When Newton's method ends.
@@ -57,6 +61,8 @@ pub(super) struct Criterion {
     pub accepts_start: bool,
     /// Whether one linear system gives the solution.
     pub is_linear: bool,
+    /// Whether steps that enlarge the residual are shortened.
+    pub is_damped: bool,
     /// Growth of the residual over the least one from which there is no return, if that is looked for.
     pub divergence: Option<f64>,
     /// How far iterations solve the linear systems.
@@ -112,6 +118,7 @@ impl Criterion {
             scale: None,
             accepts_start: false,
             is_linear,
+            is_damped: false,
             divergence: None,
             forcing: if is_linear { Forcing::OfStep { first, least } } else { Forcing::Inexact },
         }
@@ -194,7 +201,7 @@ pub(super) fn newton<const D: usize>(
     loop {
         let iterations = progress.iterations;
         let convecting_velocity = equations.convecting_velocity(&solution);
-        let terms = equations.terms(&convecting_velocity);
+        let terms = equations.terms(&convecting_velocity, &solution);
         // The second residual of a linear system is for the loads only
         let is_for_loads = criterion.is_linear && iterations == 1;
         let stage = if is_for_loads { Stage::Loads } else { Stage::Assembly };
@@ -203,7 +210,8 @@ pub(super) fn newton<const D: usize>(
             return Ok(Flow { solution, residual, iterations, scale: progress.scale() });
         }
         let reduced = system.reduced_residual(at, &solution, &residual);
-        let relative = progress.relative(&reduced, system.mean_force(&solution));
+        let size = system.largest_lack(at, &solution, &reduced);
+        let relative = progress.relative(size, system.mean_force(&solution));
         equations.on_iteration(iterations, relative);
         let scale = progress.scale();
         if progress.is_converged(relative) && system.meets_mean_velocity(at, &solution) {
@@ -230,9 +238,39 @@ pub(super) fn newton<const D: usize>(
                 return Err(NewtonFailure { reason: NewtonStop::Solve(error), end });
             }
         };
+        let next = if criterion.is_damped {
+            timing.measure(Stage::Assembly, || {
+                shortened(system, at, equations, [&solution, &next], largest(&reduced))
+            })
+        } else {
+            next
+        };
         progress.take(relative, &solution, &next);
         solution = next;
     }
+}
+
+/// Halvings of a step of Newton's method at most.
+const MOST_HALVINGS: u32 = 8;
+
+/// The end of a step of Newton's method, or a point on the way from its start at which the largest entry of the residual is
+/// not larger than a size: near the start all entries fall.
+fn shortened<const D: usize>(
+    system: &FluidSystem<D>,
+    at: &Configuration<'_, D>,
+    equations: &impl FlowEquations<D>,
+    [start, end]: [&Solution<D>; 2],
+    size: f64,
+) -> Solution<D> {
+    let mut trial = end.clone();
+    for halving in 1..=MOST_HALVINGS {
+        let residual = flow_residual(system, at, equations, &trial);
+        if largest(&system.reduced_residual(at, &trial, &residual)) <= size {
+            return trial;
+        }
+        trial = start.towards(end, 0.5f64.powi(halving as i32));
+    }
+    trial
 }
 
 /// The largest size of an entry.
@@ -262,10 +300,8 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The largest entry of a residual relative to the scale; `mean_force` is the largest one of the mean
-    /// pressure gradient.
-    fn relative(&mut self, reduced: &[f64], mean_force: f64) -> f64 {
-        let size = largest(reduced);
+    /// The size of a residual relative to the scale; `mean_force` is the largest entry of the mean pressure gradient.
+    fn relative(&mut self, size: f64, mean_force: f64) -> f64 {
         // A fluid at rest has no residual where a mean velocity is given: the force that brings it
         // about is the measure then
         let scale = match self.scale {

@@ -1,8 +1,9 @@
 //! A steady flow, or the instantaneous flow of the Stokes model.
 //!
-//! Newton's method from the Stokes flow; where it stalls, the density is raised from 0 to its
-//! value in steps that halve on failure and double on success (continuation in the Reynolds
-//! number).
+//! Newton's method from the Stokes flow of a Newtonian fluid. A viscosity that depends on the rate of shear comes first,
+//! then the density: where Newton's method stalls, the law (its index, time or yield stress) or the density is raised
+//! from 0 to its value in steps that halve on failure and double on success (continuation in the law, and in the
+//! Reynolds number).
 
 use alewife_mesh::Point;
 
@@ -12,7 +13,7 @@ use super::{
 };
 use crate::case::Steady;
 use crate::coupling::{BodiesAt, Configuration, Problem, RigidBodyEquations, Solution, SolveError};
-use crate::flow::{Convection, FlowTerms};
+use crate::flow::{Convection, FlowTerms, LocalViscosity, Viscosity, ViscosityTerm};
 use crate::step::{FlowError, StopRequest, Workspace};
 
 /// Residuals relative to that at rest that count as rounding once they stop falling.
@@ -62,30 +63,48 @@ pub struct SteadyFailure<const D: usize> {
     pub last: Solution<D>,
 }
 
-/// The equations with a part of the density, 0 for Stokes flow.
+/// The parts of what is not linear: 0 for the Stokes flow of a Newtonian fluid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Parts {
+    /// Of the density.
+    density: f64,
+    /// Of the law of the viscosity.
+    law: f64,
+}
+
+/// The equations with parts of the density and of the law of the viscosity.
 struct SteadyEquations<'a, const D: usize> {
     problem: &'a Problem<D>,
-    part: f64,
+    parts: Parts,
     stop: Option<&'a StopRequest>,
 }
 
 impl<const D: usize> FlowEquations<D> for SteadyEquations<'_, D> {
     /// The velocity seen from the frame.
     fn convecting_velocity(&self, solution: &Solution<D>) -> Vec<Point<D>> {
-        if self.part == 0.0 {
+        if self.parts.density == 0.0 {
             return Vec::new();
         }
         let frame = self.problem.frame_velocity(&solution.twists);
         solution.velocity.iter().map(|velocity| velocity - frame).collect()
     }
 
-    fn terms<'a>(&'a self, convecting_velocity: &'a [Point<D>]) -> FlowTerms<'a, D> {
-        let problem = self.problem;
+    fn terms<'a>(
+        &'a self,
+        convecting_velocity: &'a [Point<D>],
+        solution: &'a Solution<D>,
+    ) -> FlowTerms<'a, D> {
+        let (problem, parts) = (self.problem, self.parts);
+        let viscosity = match problem.viscosity.part(parts.law) {
+            Viscosity::Newtonian(value) => ViscosityTerm::Constant(value),
+            law if parts.law == 0.0 => ViscosityTerm::Constant(law.zero_shear()),
+            law => ViscosityTerm::Local(LocalViscosity { law, velocity: &solution.velocity }),
+        };
         let convection =
-            if self.part > 0.0 { problem.newton_convection() } else { Convection::None };
+            if parts.density > 0.0 { problem.newton_convection() } else { Convection::None };
         FlowTerms {
-            viscosity: problem.viscosity,
-            density: problem.density * self.part,
+            viscosity,
+            density: problem.density * parts.density,
             rate: 0.0,
             history: &[],
             convecting_velocity,
@@ -95,7 +114,12 @@ impl<const D: usize> FlowEquations<D> for SteadyEquations<'_, D> {
     }
 
     fn on_iteration(&self, iteration: usize, residual: f64) {
-        tracing::info!(density_part = self.part, iteration, residual, "newton");
+        let Parts { density, law } = self.parts;
+        if self.problem.viscosity.is_newtonian() {
+            tracing::info!(density_part = density, iteration, residual, "newton");
+        } else {
+            tracing::info!(density_part = density, law_part = law, iteration, residual, "newton");
+        }
     }
 
     fn wants_stop(&self) -> bool {
@@ -121,8 +145,9 @@ pub fn solve_steady<const D: usize>(
     let mut flow = continuation.solve(work, &at)?;
     work.system.center_pressure(problem, &mut flow.solution);
     if problem.power_depends_on_pressure_level() {
-        let part = if task.has_convection { 1.0 } else { 0.0 };
-        let equations = SteadyEquations { problem, part, stop: None };
+        let density = if task.has_convection { 1.0 } else { 0.0 };
+        let parts = Parts { density, law: 1.0 };
+        let equations = SteadyEquations { problem, parts, stop: None };
         flow.residual = flow_residual(&work.system, &at, &equations, &flow.solution);
     }
     let Flow { solution, residual, .. } = flow;
@@ -152,17 +177,32 @@ impl<const D: usize> Continuation<'_, D> {
         at: &Configuration<'_, D>,
     ) -> Result<Flow<D>, SteadyFailure<D>> {
         let at_rest = work.system.at_rest(at.constraints);
-        let mut flow = match self.attempt(work, at, at_rest, 0.0)? {
+        let newtonian = Parts { density: 0.0, law: 0.0 };
+        let mut flow = match self.attempt(work, at, at_rest, newtonian)? {
             Attempt::Converged(flow) => flow,
             Attempt::Stalled(end) => return Err(self.undetermined(*end)),
         };
-        if !self.task.has_convection {
-            return Ok(flow);
+        if !self.problem.viscosity.is_newtonian() {
+            flow = self.follow(work, at, flow, |law| Parts { density: 0.0, law })?;
         }
+        if self.task.has_convection {
+            flow = self.follow(work, at, flow, |density| Parts { density, law: 1.0 })?;
+        }
+        Ok(flow)
+    }
+
+    /// Continuation from a flow without a part of the equations to that with all of it.
+    fn follow(
+        &mut self,
+        work: &mut Workspace<D>,
+        at: &Configuration<'_, D>,
+        mut flow: Flow<D>,
+        parts: impl Fn(f64) -> Parts,
+    ) -> Result<Flow<D>, SteadyFailure<D>> {
         let (mut part, mut increment) = (0.0, 1.0f64);
         while part < 1.0 {
             let target = (part + increment).min(1.0);
-            match self.attempt(work, at, flow.solution.clone(), target)? {
+            match self.attempt(work, at, flow.solution.clone(), parts(target))? {
                 Attempt::Converged(found) => {
                     flow = found;
                     part = target;
@@ -177,32 +217,36 @@ impl<const D: usize> Continuation<'_, D> {
         Ok(flow)
     }
 
-    /// Iterates with a part of the density, 0 for Stokes flow.
+    /// Iterates with parts of the density and of the law of the viscosity.
     fn attempt(
         &mut self,
         work: &mut Workspace<D>,
         at: &Configuration<'_, D>,
         start: Solution<D>,
-        part: f64,
+        parts: Parts,
     ) -> Result<Attempt<D>, SteadyFailure<D>> {
-        let is_stokes = part == 0.0;
+        let is_newtonian = self.problem.viscosity.is_newtonian();
+        let is_stokes = parts.density == 0.0;
+        let is_linear = is_stokes && (is_newtonian || parts.law == 0.0);
         // Where iterations give it, the Stokes flow that convection is added to is not better than needed
         let is_iterative = work.system.is_iterative();
-        let is_start = is_stokes && self.task.has_convection && is_iterative;
+        let is_start = is_linear && (self.task.has_convection || !is_newtonian) && is_iterative;
+        let is_on_the_way = !is_newtonian && parts.law < 1.0;
         let tolerance = self.task.settings.tolerance;
         let criterion = Criterion {
-            tolerance: if is_start { tolerance.max(START) } else { tolerance },
+            tolerance: if is_start || is_on_the_way { tolerance.max(START) } else { tolerance },
             rounding: ROUNDING,
             stationary: is_stokes.then_some(STATIONARY),
             max_iterations: self.task.settings.max_iterations,
             scale: self.scale,
             accepts_start: true,
             // Iterations end by a norm of their own, in which equations of all sizes of cells weigh the same
-            is_linear: is_stokes && is_iterative,
+            is_linear: is_linear && is_iterative,
+            is_damped: !is_linear && !is_newtonian,
             divergence: Some(DIVERGENCE),
-            forcing: if is_stokes { Forcing::ToTolerance } else { Forcing::Inexact },
+            forcing: if is_linear { Forcing::ToTolerance } else { Forcing::Inexact },
         };
-        let equations = SteadyEquations { problem: self.problem, part, stop: self.task.stop };
+        let equations = SteadyEquations { problem: self.problem, parts, stop: self.task.stop };
         let Workspace { system, timing, .. } = work;
         match newton(system, timing, at, &equations, &criterion, start) {
             Ok(flow) => {
@@ -214,7 +258,7 @@ impl<const D: usize> Continuation<'_, D> {
                 let time = self.task.bodies.shapes.time();
                 let error = match reason {
                     NewtonStop::Stalled => return Ok(Attempt::Stalled(end)),
-                    NewtonStop::Solve(SolveError::NotFinite { .. }) if part > 0.0 => {
+                    NewtonStop::Solve(SolveError::NotFinite { .. }) if !is_linear => {
                         return Ok(Attempt::Stalled(end));
                     }
                     NewtonStop::Solve(error) => FlowError::from_solve(error, 0, time),

@@ -6,6 +6,7 @@
 //! int rho (a0 phi_b + c . grad phi_b) phi_a delta_ij
 //!   + mu (grad phi_a . grad phi_b delta_ij + d_j phi_a d_i phi_b)   (= 2 mu D(u) : D(v))
 //!   + rho phi_a phi_b d_j u0_i                                      (Newton)
+//!   + 2 mu' (2 D0 e_i . grad phi_a) (2 D0 e_j . grad phi_b)         (linearised viscosity)
 //! ```
 //!
 //! and -psi_v d_i phi_a for the pressure, with its transpose. Axisymmetric problems, with axis x and
@@ -16,6 +17,7 @@ use pulp::Simd;
 
 use super::lanes::{add_product, product, scaled};
 use super::points::{CellPoints, PointTable, gather, nodes_of};
+use super::shear::ShearPoints;
 use crate::flow::kernel::{CellInput, LocalLayout};
 use crate::flow::terms::{Convection, FlowTerms};
 use crate::space::Metric;
@@ -40,9 +42,14 @@ pub fn cell_matrix<S: Simd, const D: usize, const N: usize, const P: usize, cons
         matrix.is_overwritten = index == 0;
         let points = CellPoints::new::<S, N, P>(table, &corners, mesh.curved[cell], metric);
         let gradients = points.gradients::<S, N, P>(table);
+        let shear =
+            ShearPoints::of_term::<S, N, P>(&terms.viscosity, table, &points, nodes, metric);
         let batch = Batch {
             table,
-            viscous: scaled(&points.dx, terms.viscosity),
+            viscous: match (&shear, terms.viscosity.constant()) {
+                (Some(shear), _) => product(&points.dx, &shear.value),
+                (None, constant) => scaled(&points.dx, constant.unwrap_or_default()),
+            },
             inertia: scaled(&points.dx, terms.density),
             points,
             gradients,
@@ -60,6 +67,9 @@ pub fn cell_matrix<S: Simd, const D: usize, const N: usize, const P: usize, cons
                 inverse_radius[q] = 1.0 / batch.points.position[Metric::RADIAL][q];
             }
             batch.add_hoop_stress::<S>(&inverse_radius, &mut matrix);
+        }
+        if let Some(shear) = &shear {
+            batch.add_tangent::<S>(shear, &inverse_radius, &mut matrix);
         }
         batch.add_divergence::<S>(metric, &inverse_radius, &mut matrix);
     }
@@ -241,6 +251,44 @@ impl<const D: usize, const N: usize, const P: usize, const Q: usize> Batch<'_, D
             hoop[q] = scaled(&self.table.phi[q], weight);
         }
         matrix.add_block(&self.tested_with_phi::<S>(&hoop), Metric::RADIAL, Metric::RADIAL);
+    }
+
+    /// What the viscosity changes with the strain: of test and trial functions 2 D0 : D, which rings add to by
+    /// 2 h0 phi / r.
+    #[inline(always)]
+    fn add_tangent<S: Simd>(
+        &self,
+        shear: &ShearPoints<D, Q>,
+        inverse_radius: &[f64; Q],
+        matrix: &mut LocalMatrix<'_, D>,
+    ) {
+        let slope = product(&shear.slope, &self.points.dx);
+        let mut tested = [[[0.0; P]; Q]; D];
+        let mut tried = [[[0.0; P]; Q]; D];
+        for i in 0..D {
+            for q in 0..Q {
+                for k in 0..D {
+                    let strain = shear.gradient[i][k][q] + shear.gradient[k][i][q];
+                    add_product::<S, P>(&mut tested[i][q], &self.gradients[q][k], strain);
+                }
+                if i == Metric::RADIAL {
+                    let hoop = 2.0 * shear.hoop[q] * inverse_radius[q];
+                    add_product::<S, P>(&mut tested[i][q], &self.table.phi[q], hoop);
+                }
+                tried[i][q] = scaled(&tested[i][q], slope[q]);
+            }
+        }
+        for i in 0..D {
+            for j in 0..D {
+                let mut block = [[0.0; P]; N];
+                for b in 0..N {
+                    for q in 0..Q {
+                        add_product::<S, P>(&mut block[b], &tested[i][q], tried[j][q][b]);
+                    }
+                }
+                matrix.add_block(&block, i, j);
+            }
+        }
     }
 
     /// -psi_v d_i phi_a and its transpose, the hoop's part included.

@@ -6,6 +6,7 @@ mod matrix;
 mod plain;
 mod points;
 mod residual;
+mod shear;
 
 use std::any::Any;
 use std::ops::Range;

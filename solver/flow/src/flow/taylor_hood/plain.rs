@@ -6,6 +6,7 @@ use alewife_mesh::{CellId, Point};
 use nalgebra::SMatrix;
 
 use crate::flow::kernel::{CellInput, CellKernel, LocalLayout};
+use crate::flow::local_viscosity::{BasisAt, PointViscosity};
 use crate::flow::terms::Convection;
 use crate::space::{CellValues, DofLayout, Metric, PointValues, Tables};
 
@@ -57,6 +58,21 @@ impl<const D: usize> PlainKernel<D> {
         if has_hoop { 1.0 / at.position[axis] } else { 0.0 }
     }
 
+    fn viscosity(
+        &self,
+        input: CellInput<'_, D>,
+        cell: CellId,
+        at: &PointValues<'_, D>,
+    ) -> PointViscosity<D> {
+        input.terms.viscosity.at(BasisAt {
+            metric: self.tables.metric(),
+            nodes: input.mesh.cell(cell),
+            phi: at.phi,
+            grad_phi: at.grad_phi,
+            position: &at.position,
+        })
+    }
+
     fn add_matrix(
         &self,
         input: CellInput<'_, D>,
@@ -66,6 +82,7 @@ impl<const D: usize> PlainKernel<D> {
     ) {
         let (terms, local) = (input.terms, self.local);
         let fields = FieldsAt::new(input, cell, at);
+        let viscosity = self.viscosity(input, cell, at);
         let mut add = |row: usize, column: usize, value: f64| {
             matrix[column * local.n_local() + row] += value * at.dx;
         };
@@ -81,12 +98,17 @@ impl<const D: usize> PlainKernel<D> {
                         let carried = fields.convecting_velocity.dot(&grad[1]);
                         shared += terms.density * carried * at.phi[a];
                     }
-                    shared += terms.viscosity * grad[0].dot(&grad[1]);
+                    shared += viscosity.value * grad[0].dot(&grad[1]);
                     add(row, local.velocity(b, i), shared);
                     let hoop = self.hoop(i, at).powi(2);
-                    add(row, local.velocity(b, i), 2.0 * terms.viscosity * phi * hoop);
+                    add(row, local.velocity(b, i), 2.0 * viscosity.value * phi * hoop);
                     for j in 0..D {
-                        let mut coupled = terms.viscosity * grad[0][j] * grad[1][i];
+                        let mut coupled = viscosity.value * grad[0][j] * grad[1][i];
+                        let [tested, tried] = [(a, i), (b, j)].map(|(node, axis)| {
+                            let stretch = at.phi[node] * self.hoop(axis, at);
+                            viscosity.product(axis, &at.grad_phi[node], stretch)
+                        });
+                        coupled += viscosity.slope * tested * tried;
                         if is_newton {
                             coupled += terms.density * phi * fields.gradient[(i, j)];
                         }
@@ -123,11 +145,16 @@ impl<const D: usize> PlainKernel<D> {
             force -= body_force(&at.position);
         }
         let rate = fields.gradient + fields.gradient.transpose();
-        let stress = rate * terms.viscosity - SMatrix::identity() * fields.pressure;
+        let viscosity = self.viscosity(input, cell, at);
+        let hoop = self.tables.metric().hoop_strain(&fields.velocity, &at.position);
+        let change = viscosity.change(&fields.gradient, hoop);
+        let stress = rate * viscosity.value + viscosity.strain * change
+            - SMatrix::identity() * fields.pressure;
         let mut divergence = fields.gradient.trace();
         for i in 0..D {
             let hoop_strain = fields.velocity[i] * self.hoop(i, at);
-            let hoop_stress = 2.0 * terms.viscosity * hoop_strain - fields.pressure;
+            let hoop_stress =
+                2.0 * (viscosity.value * hoop_strain + change * viscosity.hoop) - fields.pressure;
             divergence += hoop_strain;
             for a in 0..at.phi.len() {
                 let tested = force[i] * at.phi[a]

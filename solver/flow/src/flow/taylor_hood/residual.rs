@@ -4,13 +4,15 @@
 //! int (rho (a0 u + h + (c . grad) u) - f) . v + (2 mu D(u) - p I) : grad v - q div u
 //! ```
 //!
-//! Axisymmetric problems add the hoop stress times its strain, (2 mu u_r / r - p) v_r / r.
+//! Axisymmetric problems add the hoop stress times its strain, (2 mu u_r / r - p) v_r / r. A viscosity that is
+//! linearised at a strain D0 adds 2 mu' (2 D0 : (D(u) - D0)) 2 D0 to the stress.
 
 use alewife_mesh::{CellId, NodeId, Point};
 use pulp::Simd;
 
 use super::lanes::{add_product, add_scaled, multiply_add, product, scaled_rows};
 use super::points::{CellPoints, PointTable, gather, nodes_of};
+use super::shear::ShearPoints;
 use crate::flow::kernel::{CellInput, LocalLayout};
 use crate::flow::terms::{BodyForce, FlowTerms};
 use crate::space::{DofLayout, Metric};
@@ -47,17 +49,32 @@ pub fn cell_residual<S: Simd, const D: usize, const N: usize, const P: usize, co
                 divergence[q] += gradient[i][i][q];
             }
         }
+        let nodes: &[NodeId; N] = nodes_of(mesh, cell);
+        let shear =
+            ShearPoints::of_term::<S, N, P>(&terms.viscosity, table, &points, nodes, metric);
+        let viscosity = match (&shear, terms.viscosity.constant()) {
+            (Some(shear), _) => shear.value,
+            (None, constant) => [constant.unwrap_or_default(); Q],
+        };
+        let mut stretch = [0.0; Q];
         if metric.is_revolved() {
             let radial = table.velocity::<S>(&nodal.velocity[Metric::RADIAL]);
             for q in 0..Q {
                 let radius = points.position[Metric::RADIAL][q];
-                let stretch = radial[q] / radius;
-                divergence[q] += stretch;
+                stretch[q] = radial[q] / radius;
+                divergence[q] += stretch[q];
                 force[Metric::RADIAL][q] +=
-                    (2.0 * terms.viscosity * stretch - pressure[q]) / radius;
+                    (2.0 * viscosity[q] * stretch[q] - pressure[q]) / radius;
             }
         }
-        let stress = Stress { viscosity: terms.viscosity, gradient, pressure };
+        let tangent = shear.as_ref().map(|shear| (shear, shear.change::<S>(&gradient, &stretch)));
+        if let Some((shear, change)) = tangent.filter(|_| metric.is_revolved()) {
+            for q in 0..Q {
+                let radius = points.position[Metric::RADIAL][q];
+                force[Metric::RADIAL][q] += 2.0 * change[q] * shear.hoop[q] / radius;
+            }
+        }
+        let stress = Stress { viscosity, gradient, pressure, tangent };
         for i in 0..D {
             let flux = stress.reference_flux::<S>(&points, i);
             let force = product(&force[i], &points.dx);
@@ -175,14 +192,16 @@ fn subtract_body_force<const D: usize, const Q: usize>(
 }
 
 /// The stress 2 mu D(u) - p I at the points.
-struct Stress<const D: usize, const Q: usize> {
-    viscosity: f64,
+struct Stress<'a, const D: usize, const Q: usize> {
+    viscosity: [f64; Q],
     /// gradient\[i\]\[j\] = d_j u_i.
     gradient: [[[f64; Q]; D]; D],
     pressure: [f64; Q],
+    /// Where the viscosity is linearised, its points and by how much it differs there (Pa s).
+    tangent: Option<(&'a ShearPoints<D, Q>, [f64; Q])>,
 }
 
-impl<const D: usize, const Q: usize> Stress<D, Q> {
+impl<const D: usize, const Q: usize> Stress<'_, D, Q> {
     /// Row `i` of the stress, weighted and turned to the reference axes.
     #[inline(always)]
     fn reference_flux<S: Simd>(&self, points: &CellPoints<D, Q>, i: usize) -> [[f64; Q]; D] {
@@ -192,8 +211,13 @@ impl<const D: usize, const Q: usize> Stress<D, Q> {
             for q in 0..Q {
                 let rate = self.gradient[i][j][q] + self.gradient[j][i][q];
                 let level = if i == j { self.pressure[q] } else { 0.0 };
-                stress[q] = multiply_add::<S>(self.viscosity, rate, -level) * points.dx[q];
+                stress[q] = multiply_add::<S>(self.viscosity[q], rate, -level);
             }
+            if let Some((shear, change)) = &self.tangent {
+                add_scaled::<S, Q>(&mut stress, &shear.gradient[i][j], change);
+                add_scaled::<S, Q>(&mut stress, &shear.gradient[j][i], change);
+            }
+            let stress = product(&stress, &points.dx);
             for k in 0..D {
                 add_scaled::<S, Q>(&mut flux[k], &stress, &points.inverse[k][j]);
             }

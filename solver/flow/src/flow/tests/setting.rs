@@ -61,6 +61,9 @@ pub struct Setting<const D: usize> {
     pub frame: Point<D>,
     pub rate: f64,
     pub density: f64,
+    pub viscosity: Viscosity,
+    /// The velocity whose strain a viscosity is taken at; that of the setting if absent.
+    pub sheared: Option<Vec<Point<D>>>,
 }
 
 impl<const D: usize> Setting<D> {
@@ -92,10 +95,12 @@ impl<const D: usize> Setting<D> {
             frame: Point::from_fn(|axis, _| 0.3 - 0.5 * axis as f64),
             rate: 1.7,
             density: 1.3,
+            viscosity: Viscosity::Newtonian(0.7),
+            sheared: None,
             mesh,
             metric,
             layout,
-            maps: assembly.maps(&constraints),
+            maps: assembly.maps(&constraints, &[]),
             constraints,
             assembly,
         }
@@ -117,8 +122,15 @@ impl<const D: usize> Setting<D> {
         convection: Convection,
         work: impl FnOnce(&FlowTerms<'_, D>, &Fields<'_, D>) -> T,
     ) -> T {
+        let viscosity = match self.viscosity {
+            Viscosity::Newtonian(value) => ViscosityTerm::Constant(value),
+            law => ViscosityTerm::Local(LocalViscosity {
+                law,
+                velocity: self.sheared.as_ref().unwrap_or(&self.velocity),
+            }),
+        };
         let terms = FlowTerms {
-            viscosity: 0.7,
+            viscosity,
             density: self.density,
             rate: self.rate,
             history: &self.history,

@@ -19,7 +19,8 @@ pub enum Part {
         /// The node it belongs to.
         node: u32,
     },
-    /// A rigid velocity of a body: a row and a column with many entries.
+    /// A velocity of a body: a row and a column with many entries. Those that are not rigid stand six by six for
+    /// bodies behind all others.
     Rigid {
         /// The body.
         body: u32,

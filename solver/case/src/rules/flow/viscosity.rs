@@ -1,0 +1,49 @@
+//! Problems of a viscosity that depends on the rate of shear.
+
+use crate::rules::Findings;
+use crate::{Plateaus, Scheme, ShearLaw, TimeSettings};
+
+pub fn check(findings: &mut Findings<'_>) {
+    let Some(law) = findings.case().fluid.viscosity.law() else { return };
+    if let ShearLaw::Carreau(plateaus) | ShearLaw::Cross(plateaus) = law {
+        check_plateaus(findings, law.name(), plateaus);
+    }
+    if let ShearLaw::Cross(plateaus) = law
+        && plateaus.index >= 1.0
+    {
+        findings.error(
+            "fluid.viscosity.cross.index",
+            format!(
+                "the law `cross` thins the fluid with an index below 1 only, not {}",
+                plateaus.index
+            ),
+            "write an index between 0 and 1, or take `carreau`",
+        );
+    }
+    let is_explicit = matches!(&findings.case().time, TimeSettings::Unsteady(unsteady)
+        if unsteady.scheme == Scheme::Rk3);
+    if is_explicit && findings.case().contact.is_some() {
+        findings.error(
+            "time.unsteady.scheme",
+            "the scheme `rk3` cannot be used: contact is added to a flow that depends linearly on its loads, \
+             which it does not where the viscosity depends on the rate of shear"
+                .to_owned(),
+            "leave `scheme` out for `bdf2`, or leave [contact] out",
+        );
+    }
+}
+
+/// The viscosity at small rates is the larger one.
+fn check_plateaus(findings: &mut Findings<'_>, name: &str, plateaus: &Plateaus) {
+    let Plateaus { zero, infinite, .. } = *plateaus;
+    if infinite > zero && zero > 0.0 {
+        let key = format!("fluid.viscosity.{name}.infinite");
+        findings.error(
+            &key,
+            format!(
+                "`{key}` is {infinite}, but must not be above the viscosity at small rates, zero = {zero}"
+            ),
+            "exchange them, or write a smaller `infinite`; a fluid that shear thickens has an index above 1",
+        );
+    }
+}

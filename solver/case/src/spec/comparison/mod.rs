@@ -1,0 +1,5 @@
+//! What a run is compared with: references, the statistics they are values of, and how certain they are.
+
+pub(crate) mod reference;
+pub(crate) mod statistic;
+pub(crate) mod uncertainty;

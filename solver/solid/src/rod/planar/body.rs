@@ -1,0 +1,127 @@
+//! `PlanarRodBody`: a planar rod with its surface, its supports and its weight, as a body in a flow.
+
+use nalgebra::{DMatrix, DVector, Vector2, Vector3};
+
+use super::ends::EndPose;
+use super::planar_rod::PlanarRod;
+use super::surface::{SectionPoint, SurfaceRows};
+use crate::rod::center::center_weights;
+use crate::rod::loads::LineForce;
+use crate::rod::supports::Supports;
+use crate::structure::{Flexible, Held, Load, Structure, Tangents, Weight};
+
+/// A planar rod as a body in a flow. Its material points are told by their places where the rod is straight.
+#[derive(Debug)]
+pub struct PlanarRodBody {
+    rod: PlanarRod,
+    /// Place (m) and direction (rad) of the base of the straight rod.
+    base: EndPose,
+    initial: DVector<f64>,
+    supports: Supports<EndPose>,
+    weight: Option<LineForce>,
+}
+
+impl PlanarRodBody {
+    /// A rod that is straight at the start, from a base (m, rad) on, with what holds it.
+    #[must_use]
+    pub fn new(rod: PlanarRod, base: EndPose, supports: Supports<EndPose>) -> Self {
+        let initial = rod.straight(base.place, base.angle);
+        Self { rod, base, initial, supports, weight: None }
+    }
+
+    /// With other coordinates at the start.
+    #[must_use]
+    pub fn starting(self, initial: DVector<f64>) -> Self {
+        Self { initial, ..self }
+    }
+
+    /// With a force that does not change, such as weight less buoyancy.
+    #[must_use]
+    pub fn loaded(self, weight: LineForce) -> Self {
+        Self { weight: Some(weight), ..self }
+    }
+
+    /// The rod.
+    #[must_use]
+    pub fn rod(&self) -> &PlanarRod {
+        &self.rod
+    }
+
+    /// The point that is at a place (m) where the rod is straight.
+    #[must_use]
+    pub fn section_point(&self, rest: &Vector3<f64>) -> SectionPoint {
+        let from_base = rest.xy() - self.base.place;
+        let (sin, cos) = self.base.angle.sin_cos();
+        SectionPoint {
+            along: from_base.dot(&Vector2::new(cos, sin)),
+            offset: from_base.dot(&Vector2::new(-sin, cos)),
+        }
+    }
+
+    fn at(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> SurfaceRows {
+        self.rod.surface(coordinates, self.section_point(rest))
+    }
+}
+
+impl Structure for PlanarRodBody {
+    fn n_coordinates(&self) -> usize {
+        self.rod.n_coordinates()
+    }
+
+    fn mass(&self) -> DMatrix<f64> {
+        self.rod.mass()
+    }
+
+    fn forces(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> DVector<f64> {
+        let forces = self.rod.forces(coordinates, velocities, time);
+        match &self.weight {
+            Some(weight) => forces - weight.load(coordinates, velocities, time),
+            None => forces,
+        }
+    }
+
+    fn tangents(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> Tangents {
+        self.rod.tangents(coordinates, velocities, time)
+    }
+
+    fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64 {
+        self.rod.elastic_energy(coordinates, time)
+    }
+}
+
+impl Flexible for PlanarRodBody {
+    fn initial(&self) -> DVector<f64> {
+        self.initial.clone()
+    }
+
+    fn held(&self, time: f64) -> Vec<Held> {
+        self.supports.held(time, |end, support, pose| self.rod.held(end, support, pose))
+    }
+
+    fn place(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vector3<f64> {
+        self.at(coordinates, rest).place.push(rest.z)
+    }
+
+    fn weights(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vec<Weight> {
+        let rows = self.at(coordinates, rest);
+        let weight = |i: usize| Weight {
+            coordinate: rows.first + i,
+            weight: rows.weights.column(i).push(0.0),
+        };
+        (0..rows.weights.ncols()).map(weight).collect()
+    }
+
+    fn center_weights(&self) -> Vec<Weight> {
+        center_weights(&self.rod)
+    }
+}

@@ -1,0 +1,119 @@
+//! The surface about a planar rod: places of its points, and velocities as rows of weights on those of the rod.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{DVector, SMatrix, Vector2};
+
+use super::planar_rod::{COORDINATES, PlanarRod};
+use crate::rod::hermite::Hermite;
+
+/// A point of a section: sections stay plane and normal to the centreline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionPoint {
+    /// Distance of the section along the rod (m).
+    pub along: f64,
+    /// Distance from the centreline (m), positive on the left of who looks from the base to the tip.
+    pub offset: f64,
+}
+
+/// Place of a point of a rod, and how its velocity follows from those of the rod.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceRows {
+    /// Place (m).
+    pub place: Vector2<f64>,
+    /// First of the coordinates the point depends on.
+    pub first: usize,
+    /// Weights on their velocities, which are also the derivatives of the place by the coordinates.
+    pub weights: SMatrix<f64, 2, COORDINATES>,
+}
+
+impl SurfaceRows {
+    /// Velocity of the point (m/s).
+    #[must_use]
+    pub fn velocity(&self, velocities: &DVector<f64>) -> Vector2<f64> {
+        self.weights * velocities.fixed_rows::<COORDINATES>(self.first)
+    }
+}
+
+impl PlanarRod {
+    /// A point of a section, r + offset n with the unit normal n.
+    #[must_use]
+    pub fn surface(&self, coordinates: &DVector<f64>, point: SectionPoint) -> SurfaceRows {
+        let at = self.locate(point.along);
+        let basis = Hermite::at(at.xi, at.length);
+        let of_element = self.of_element(coordinates, at.element);
+        let along = |weights: &[f64; 4]| {
+            let mut sum = Vector2::zeros();
+            for (knot, weight) in weights.iter().enumerate() {
+                sum += of_element.fixed_rows::<2>(2 * knot) * *weight;
+            }
+            sum
+        };
+        let tangent = along(&basis.first);
+        let length = tangent.norm();
+        let [tx, ty] = (tangent / length).into();
+        // dn/dt = -t (n . d(dr/ds)/dt) / |dr/ds|
+        let turning = -point.offset / length;
+        let mut weights = SMatrix::zeros();
+        for knot in 0..4 {
+            let (place, first) = (basis.place[knot], basis.first[knot] * turning);
+            weights[(0, 2 * knot)] = place - first * tx * ty;
+            weights[(0, 2 * knot + 1)] = first * tx * tx;
+            weights[(1, 2 * knot)] = -first * ty * ty;
+            weights[(1, 2 * knot + 1)] = place + first * ty * tx;
+        }
+        SurfaceRows {
+            place: along(&basis.place) + Vector2::new(-ty, tx) * point.offset,
+            first: at.element * Self::STRIDE,
+            weights,
+        }
+    }
+}
+
+/// A strip whose ends are half circles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoundedStrip {
+    /// Length with the ends (m).
+    pub length: f64,
+    /// Half of its thickness (m), at most half of its length.
+    pub half_width: f64,
+}
+
+impl RoundedStrip {
+    /// Half of the thickness at a distance along it (m).
+    #[must_use]
+    pub fn half_width_at(&self, along: f64) -> f64 {
+        let Self { length, half_width: a } = *self;
+        let from_center = a - along.min(length - along);
+        if from_center <= 0.0 { a } else { (a * a - from_center * from_center).max(0.0).sqrt() }
+    }
+
+    /// Length of the outline at rest (m).
+    #[must_use]
+    pub fn perimeter(&self) -> f64 {
+        let Self { length, half_width: a } = *self;
+        2.0 * (length - 2.0 * a) + 4.0 * FRAC_PI_2 * a
+    }
+
+    /// The point of the outline at a distance (m) along it at rest, counter-clockwise from the base: along the right
+    /// side to the tip, and back along the left one.
+    #[must_use]
+    pub fn outline(&self, distance: f64) -> SectionPoint {
+        let Self { length, half_width: a } = *self;
+        let half = 0.5 * self.perimeter();
+        let distance = distance.rem_euclid(2.0 * half);
+        let is_right = distance < half;
+        let from_base = if is_right { distance } else { 2.0 * half - distance };
+        let (quarter, sign) = (FRAC_PI_2 * a, if is_right { -1.0 } else { 1.0 });
+        let (along, width) = if from_base < quarter {
+            let (sin, cos) = (from_base / a).sin_cos();
+            (a * (1.0 - cos), a * sin)
+        } else if from_base > half - quarter {
+            let (sin, cos) = ((half - from_base) / a).sin_cos();
+            (length - a * (1.0 - cos), a * sin)
+        } else {
+            (a + from_base - quarter, a)
+        };
+        SectionPoint { along, offset: sign * width }
+    }
+}

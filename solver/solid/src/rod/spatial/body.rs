@@ -1,0 +1,123 @@
+//! `SpatialRodBody`: a rod in space with its surface, its supports and its weight, as a body in a flow.
+
+use nalgebra::{DMatrix, DVector, Vector3};
+
+use super::ends::SpatialEndPose;
+use super::spatial_rod::SpatialRod;
+use super::surface::{SpatialSectionPoint, SpatialSurfaceRows};
+use crate::rod::center::center_weights;
+use crate::rod::loads::LineForce;
+use crate::rod::supports::Supports;
+use crate::structure::{Flexible, Held, Load, Structure, Tangents, Weight};
+
+/// A rod in space as a body in a flow. Its material points are told by their places where the rod is straight.
+#[derive(Debug)]
+pub struct SpatialRodBody {
+    rod: SpatialRod,
+    /// Place (m) and frame of the base of the straight rod.
+    base: SpatialEndPose,
+    initial: DVector<f64>,
+    supports: Supports<SpatialEndPose>,
+    weight: Option<LineForce>,
+}
+
+impl SpatialRodBody {
+    /// A rod that is straight at the start, from a base on, with what holds it.
+    #[must_use]
+    pub fn new(rod: SpatialRod, base: SpatialEndPose, supports: Supports<SpatialEndPose>) -> Self {
+        let initial = rod.straight(base.place, base.rotation);
+        Self { rod, base, initial, supports, weight: None }
+    }
+
+    /// With other coordinates at the start.
+    #[must_use]
+    pub fn starting(self, initial: DVector<f64>) -> Self {
+        Self { initial, ..self }
+    }
+
+    /// With a force that does not change, such as weight less buoyancy.
+    #[must_use]
+    pub fn loaded(self, weight: LineForce) -> Self {
+        Self { weight: Some(weight), ..self }
+    }
+
+    /// The rod.
+    #[must_use]
+    pub fn rod(&self) -> &SpatialRod {
+        &self.rod
+    }
+
+    /// The point that is at a place (m) where the rod is straight.
+    #[must_use]
+    pub fn section_point(&self, rest: &Vector3<f64>) -> SpatialSectionPoint {
+        let local = self.base.rotation.inverse() * (rest - self.base.place);
+        SpatialSectionPoint { along: local.x, offset: [local.y, local.z] }
+    }
+
+    fn at(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> SpatialSurfaceRows {
+        self.rod.surface(coordinates, self.section_point(rest))
+    }
+}
+
+impl Structure for SpatialRodBody {
+    fn n_coordinates(&self) -> usize {
+        self.rod.n_coordinates()
+    }
+
+    fn mass(&self) -> DMatrix<f64> {
+        self.rod.mass()
+    }
+
+    fn forces(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> DVector<f64> {
+        let forces = self.rod.forces(coordinates, velocities, time);
+        match &self.weight {
+            Some(weight) => forces - weight.load(coordinates, velocities, time),
+            None => forces,
+        }
+    }
+
+    fn tangents(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> Tangents {
+        self.rod.tangents(coordinates, velocities, time)
+    }
+
+    fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64 {
+        self.rod.elastic_energy(coordinates, time)
+    }
+}
+
+impl Flexible for SpatialRodBody {
+    fn initial(&self) -> DVector<f64> {
+        self.initial.clone()
+    }
+
+    fn held(&self, time: f64) -> Vec<Held> {
+        self.supports.held(time, |end, support, pose| self.rod.held(end, support, pose))
+    }
+
+    fn place(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vector3<f64> {
+        self.at(coordinates, rest).place
+    }
+
+    fn weights(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vec<Weight> {
+        let rows = self.at(coordinates, rest);
+        let weight = |i: usize| Weight {
+            coordinate: rows.first + i,
+            weight: rows.weights.column(i).into_owned(),
+        };
+        (0..rows.weights.ncols()).map(weight).collect()
+    }
+
+    fn center_weights(&self) -> Vec<Weight> {
+        center_weights(&self.rod)
+    }
+}

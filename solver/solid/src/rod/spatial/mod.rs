@@ -1,0 +1,12 @@
+//! Rods in space, their ends and the surface about them.
+
+mod body;
+mod ends;
+mod frame;
+mod spatial_rod;
+mod surface;
+
+pub use body::SpatialRodBody;
+pub use ends::{SpatialEndLoad, SpatialEndPose};
+pub use spatial_rod::SpatialRod;
+pub use surface::{SpatialSectionPoint, SpatialSurfaceRows};

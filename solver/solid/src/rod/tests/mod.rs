@@ -1,0 +1,12 @@
+//! Rods against exact solutions, and their derivatives against differences.
+
+mod active;
+mod body;
+mod common;
+mod derivatives;
+mod motion;
+mod properties;
+mod resistive;
+mod space;
+mod statics;
+mod surface;

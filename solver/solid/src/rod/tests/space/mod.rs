@@ -1,0 +1,8 @@
+//! Rods in space.
+
+pub mod common;
+mod derivatives;
+mod helix;
+mod motion;
+mod statics;
+mod surface;

@@ -1,0 +1,81 @@
+//! The surface about a rod in space, and its ends.
+
+use nalgebra::{DVector, Rotation3, Vector3, Vector6};
+
+use super::common::{along_x, simple};
+use crate::rod::tests::common::scatter;
+use crate::rod::{Along, End, SpatialEndPose, SpatialSectionPoint, Support};
+use crate::structure::Structure;
+
+#[test]
+fn rows_are_derivatives_of_places() {
+    let rod = simple(2);
+    let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.5) * 0.15;
+    for (along, offset) in [(0.0, [0.1, 0.0]), (0.21, [-0.1, 0.3]), (1.0, [0.2, 0.1])] {
+        let point = SpatialSectionPoint { along, offset };
+        let rows = rod.surface(&q, point);
+        for i in 0..18 {
+            let moved = |by: f64| {
+                let mut q = q.clone();
+                q[rows.first + i] += by;
+                rod.surface(&q, point).place
+            };
+            let difference = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+            let error = (difference - rows.weights.column(i)).norm();
+            assert!(error < 1e-8, "weight {i} at {along} is off by {error:.1e}");
+        }
+    }
+}
+
+#[test]
+fn points_of_a_rod_that_turns_move_like_a_rigid_body() {
+    let rod = simple(4);
+    let turning = [1.0, -2.0, 3.0].map(Along::Constant);
+    let rotation = Rotation3::new(Vector3::new(0.3, 0.2, -0.5));
+    let q = rod.curved(Vector3::new(0.1, 0.2, 0.3), rotation, &turning);
+    let (drift, spin) = (Vector3::new(0.3, 0.1, -0.2), Vector3::new(1.0, -0.5, 0.7));
+    let mut v = DVector::zeros(q.len());
+    for i in (0..q.len()).step_by(3) {
+        let shift = if i % 9 == 0 { drift } else { Vector3::zeros() };
+        let velocity = spin.cross(&q.fixed_rows::<3>(i)) + shift;
+        v.fixed_rows_mut::<3>(i).copy_from(&velocity);
+    }
+    for along in [0.0, 0.13, 0.77, 1.0] {
+        let at = rod.surface(&q, SpatialSectionPoint { along, offset: [0.05, -0.02] });
+        let error = (at.velocity(&v) - spin.cross(&at.place) - drift).norm();
+        assert!(error < 1e-14, "the velocity is off by {error:.1e}");
+    }
+}
+
+#[test]
+fn an_end_on_a_body_has_the_velocity_of_the_body() {
+    let rod = simple(2);
+    let body = SpatialEndPose {
+        place: Vector3::new(1.0, 2.0, 3.0),
+        velocity: Vector3::new(0.1, 0.2, 0.3),
+        rotation: Rotation3::new(Vector3::new(0.4, -0.3, 0.2)),
+        angular_velocity: Vector3::new(-1.0, 0.5, 2.0),
+    };
+    let end = body.attached(Vector3::new(0.5, 0.0, 0.1), Rotation3::new(Vector3::z()));
+    let held = rod.held(End::Tip, Support::Clamped, &end);
+    let mut rates = Vector6::zeros();
+    rates.fixed_rows_mut::<3>(0).copy_from(&end.velocity);
+    rates.fixed_rows_mut::<3>(3).copy_from(&end.angular_velocity);
+    let by_rows = end.rows() * rates;
+    for (i, given) in held.iter().enumerate() {
+        assert_eq!(given.coordinate, 18 + i);
+        assert!((given.rate - by_rows[i]).abs() < 1e-14, "{given:?} but {}", by_rows[i]);
+    }
+    // A short time later
+    let (step, turn) = (1e-6, Rotation3::new(body.angular_velocity * 1e-6));
+    let later = SpatialEndPose {
+        place: body.place + body.velocity * step,
+        rotation: turn * body.rotation,
+        ..body
+    };
+    let later = later.attached(Vector3::new(0.5, 0.0, 0.1), Rotation3::new(Vector3::z()));
+    for (now, then) in held.iter().zip(rod.held(End::Tip, Support::Clamped, &later)) {
+        let rate = (then.value - now.value) / step;
+        assert!((rate - now.rate).abs() < 1e-5, "{now:?} but {rate}");
+    }
+}

@@ -1,0 +1,257 @@
+//! Energy, forces and stiffness of a solid, summed over the quadrature points of its cells.
+
+use alewife_mesh::Point;
+use nalgebra::SVector;
+
+use super::build::Solid;
+use super::geometry::{At, MAX_NODES, MAX_UNKNOWNS};
+use crate::material::{Curvature, Fibre, Principal, Tangent, Tensor, Viscous, green};
+
+/// Green's strain as the backward difference of a step has it from levels before.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrainHistory {
+    /// The factor a (1/s) of the rate a (E - E_h).
+    pub rate: f64,
+    /// E_h at all quadrature points.
+    pub strains: Vec<Tensor>,
+}
+
+/// A level before, with the factor of its strain in the history.
+#[derive(Debug, Clone, Copy)]
+pub struct StrainLevel<'a> {
+    /// The factor, -a_i/a_0.
+    pub factor: f64,
+    /// Places of all nodes (m).
+    pub places: &'a [f64],
+}
+
+/// What a state depends on besides the places of the nodes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Controls<'a> {
+    /// The stretch each set of fibres is told.
+    pub targets: &'a [f64],
+    /// Strains of the levels before, where there is damping.
+    pub damping: Option<&'a StrainHistory>,
+}
+
+/// What acts at a quadrature point.
+pub(super) struct Response<'a, const D: usize> {
+    solid: &'a Solid<D>,
+    cell: usize,
+    deformation: Tensor,
+    principal: Principal,
+    viscous: Option<Viscous>,
+    controls: Controls<'a>,
+}
+
+impl<'a, const D: usize> Response<'a, D> {
+    /// The response to places of the nodes of a cell; none where the cell is turned over.
+    pub(super) fn new(
+        solid: &'a Solid<D>,
+        cell: usize,
+        point: usize,
+        places: &[Point<D>],
+        controls: Controls<'a>,
+    ) -> Option<Self> {
+        let deformation = solid.points.at(cell, point).deformation(places);
+        let viscosity = solid.spec.materials[solid.material_of(cell)].viscosity;
+        let number = cell * solid.points.n_points + point;
+        let viscous = controls.damping.filter(|_| viscosity > 0.0).map(|history| Viscous {
+            stiffness: 2.0 * viscosity * history.rate,
+            history: history.strains[number],
+        });
+        let principal = Principal::of(&deformation)?;
+        Some(Self { solid, cell, deformation, principal, viscous, controls })
+    }
+
+    /// Fibres of the cell.
+    pub(super) fn fibres(&self) -> impl Iterator<Item = (usize, Fibre)> {
+        self.solid.fibres_in[self.cell].iter().map(|fibre| {
+            let stiffness = self.solid.spec.fibres[fibre.set].stiffness;
+            let target = self.controls.targets[fibre.set];
+            (fibre.set, Fibre { direction: fibre.direction, stiffness, target })
+        })
+    }
+
+    /// The deformation gradient.
+    pub(super) fn deformation(&self) -> &Tensor {
+        &self.deformation
+    }
+
+    /// Stresses by the shear modulus and by lambda.
+    pub(super) fn stress_by_moduli(&self) -> [Tensor; 2] {
+        let material = self.solid.material_of(self.cell);
+        self.principal.stress_by_moduli(self.solid.spec.materials[material].law)
+    }
+
+    /// The damping of the point, if it has any.
+    pub(super) fn viscous(&self) -> Option<&Viscous> {
+        self.viscous.as_ref()
+    }
+
+    fn energy(&self) -> f64 {
+        let material = self.solid.material_of(self.cell);
+        let law = self.solid.spec.materials[material].law;
+        let mut energy = self.principal.energy(law, self.solid.lame[material]);
+        for (_, fibre) in self.fibres() {
+            energy += fibre.energy(&self.deformation);
+        }
+        energy + self.viscous.map_or(0.0, |viscous| viscous.energy(&self.deformation))
+    }
+
+    /// First Piola-Kirchhoff stress (Pa) of all together.
+    pub(super) fn stress(&self) -> Tensor {
+        let material = self.solid.material_of(self.cell);
+        let law = self.solid.spec.materials[material].law;
+        let mut stress = self.principal.stress(law, self.solid.lame[material]);
+        for (_, fibre) in self.fibres() {
+            stress += fibre.stress(&self.deformation);
+        }
+        if let Some(viscous) = &self.viscous {
+            stress += viscous.stress(&self.deformation);
+        }
+        stress
+    }
+
+    /// Derivatives of the stress by the deformation gradient (Pa).
+    pub(super) fn tangent(&self, curvature: Curvature) -> Tangent {
+        let material = self.solid.material_of(self.cell);
+        let law = self.solid.spec.materials[material].law;
+        let mut tangent = self.principal.tangent(law, self.solid.lame[material], curvature);
+        for (_, fibre) in self.fibres() {
+            tangent += fibre.tangent(&self.deformation, curvature);
+        }
+        if let Some(viscous) = &self.viscous {
+            tangent += viscous.tangent(&self.deformation, curvature);
+        }
+        tangent
+    }
+}
+
+impl<const D: usize> Solid<D> {
+    /// Calls `visit` for all quadrature points of a state; false where a cell is turned over, with the points
+    /// before it visited.
+    pub(super) fn each_point<'a>(
+        &'a self,
+        places: &[f64],
+        controls: Controls<'a>,
+        mut visit: impl FnMut(usize, At<'a, D>, Response<'a, D>),
+    ) -> bool {
+        let mut local = [Point::<D>::zeros(); MAX_NODES];
+        for cell in 0..self.spec.mesh.n_cells() {
+            let local = self.gather(cell, places, &mut local);
+            for k in 0..self.points.n_points {
+                let Some(response) = Response::new(self, cell, k, local, controls) else {
+                    return false;
+                };
+                visit(cell, self.points.at(cell, k), response);
+            }
+        }
+        true
+    }
+
+    /// The cells turned over in a state, if any: the first of them.
+    pub(super) fn turned_over(&self, places: &[f64]) -> Option<usize> {
+        let deformations = self.deformations(places);
+        let first = deformations.iter().position(|f| Principal::of(f).is_none());
+        first.map(|number| number / self.points.n_points)
+    }
+
+    /// Elastic energy of a state (J), that of fibres and of damping's increment included; none where a cell is
+    /// turned over.
+    pub(super) fn energy_of(&self, places: &[f64], controls: Controls<'_>) -> Option<f64> {
+        let mut energy = 0.0;
+        let visit = |_, at: At<'_, D>, response: Response<'_, D>| {
+            energy += at.weight * response.energy();
+        };
+        self.each_point(places, controls, visit).then_some(energy)
+    }
+
+    /// Adds a multiple of the inner forces of a state, and returns its energy; none where a cell is turned over.
+    pub(super) fn add_forces(
+        &self,
+        places: &[f64],
+        controls: Controls<'_>,
+        factor: f64,
+        forces: &mut [f64],
+    ) -> Option<f64> {
+        let mut energy = 0.0;
+        let visit = |cell, at: At<'_, D>, response: Response<'_, D>| {
+            energy += at.weight * response.energy();
+            let mut local = [0.0; MAX_UNKNOWNS];
+            at.add_forces(&response.stress(), &mut local);
+            for (a, node) in self.nodes_of(cell).iter().enumerate() {
+                for i in 0..D {
+                    forces[node * D + i] += factor * local[a * D + i];
+                }
+            }
+        };
+        self.each_point(places, controls, visit).then_some(energy)
+    }
+
+    /// Adds a multiple of the stiffness of a state to the values of a matrix; false where a cell is turned over.
+    pub(super) fn add_stiffness(
+        &self,
+        places: &[f64],
+        controls: Controls<'_>,
+        curvature: Curvature,
+        factor: f64,
+        values: &mut [f64],
+    ) -> bool {
+        let last = self.points.n_points - 1;
+        let mut matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
+        let mut point = 0;
+        self.each_point(places, controls, |cell, at, response| {
+            add_point(&at, &response.tangent(curvature), factor, &mut matrix);
+            if point == last {
+                self.pattern.add_cell(cell, values, |p, q| matrix[p][q]);
+                matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
+                point = 0;
+            } else {
+                point += 1;
+            }
+        })
+    }
+
+    /// Strains that the backward difference with these factors has of levels before.
+    pub(super) fn strain_history(&self, rate: f64, levels: &[StrainLevel<'_>]) -> StrainHistory {
+        let mut strains = vec![Tensor::zeros(); self.points.weights.len()];
+        for StrainLevel { factor, places } in levels {
+            for (strain, deformation) in strains.iter_mut().zip(self.deformations(places)) {
+                *strain += green(&deformation) * *factor;
+            }
+        }
+        StrainHistory { rate, strains }
+    }
+}
+
+/// Adds the stiffness of a quadrature point to the lower triangle of the matrix of its cell.
+fn add_point<const D: usize>(
+    at: &At<'_, D>,
+    tangent: &Tangent,
+    factor: f64,
+    matrix: &mut [[f64; MAX_UNKNOWNS]; MAX_UNKNOWNS],
+) {
+    let weight = factor * at.weight;
+    for (a, slope) in at.gradients.iter().enumerate() {
+        for i in 0..D {
+            let mut row = SVector::<f64, 9>::zeros();
+            for j in 0..D {
+                row += tangent.column(3 * i + j) * (weight * slope[j]);
+            }
+            if at.curvature > 0.0 && i == 1 {
+                row += tangent.column(8) * (weight * at.shapes[a] * at.curvature);
+            }
+            let entries = &mut matrix[a * D + i];
+            for (b, other) in at.gradients[..=a].iter().enumerate() {
+                for k in 0..D {
+                    let sum: f64 = (0..D).map(|l| row[3 * k + l] * other[l]).sum();
+                    entries[b * D + k] += sum;
+                }
+                if at.curvature > 0.0 {
+                    entries[b * D + 1] += row[8] * at.shapes[b] * at.curvature;
+                }
+            }
+        }
+    }
+}

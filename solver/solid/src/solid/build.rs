@@ -1,0 +1,275 @@
+//! `Solid`: an elastic body of simplices with its materials, active fibres and what is held.
+
+use std::sync::Arc;
+
+use alewife_mesh::Point;
+use nalgebra::Vector3;
+
+use super::SolidError;
+use super::cholesky::Cholesky;
+use super::geometry::CellPoints;
+use super::mass::Mass;
+use super::mesh::{Frame, SolidMesh};
+use super::pattern::Pattern;
+use crate::material::{Lame, Material, Tensor};
+
+/// Fibres that are told one stretch: a muscle, a tendon.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fibres {
+    /// The cells they run through.
+    pub cells: Vec<usize>,
+    /// Their direction in each of these cells; its length does not matter.
+    pub directions: Vec<Vector3<f64>>,
+    /// Stiffness w (Pa).
+    pub stiffness: f64,
+}
+
+/// All a solid is made from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolidSpec<const D: usize> {
+    /// Its mesh at rest.
+    pub mesh: SolidMesh<D>,
+    /// What the mesh stands for.
+    pub frame: Frame,
+    /// Its materials.
+    pub materials: Vec<Material>,
+    /// The material of each cell; empty where all have the first.
+    pub material_of: Vec<usize>,
+    /// Its active fibres.
+    pub fibres: Vec<Fibres>,
+    /// Components of nodes, number D node + axis, that stay where the state at hand has them: all of a node
+    /// for a clamp or a rigid part that is led, those across it for a rail.
+    pub held: Vec<usize>,
+}
+
+/// Fibres in a cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FibreIn {
+    /// The set they belong to.
+    pub set: usize,
+    /// Their direction, a unit vector.
+    pub direction: Vector3<f64>,
+}
+
+/// An elastic body in D dimensions, ready to be computed. A state of it is the places of its nodes (m), node
+/// after node, D numbers each.
+#[derive(Debug, Clone)]
+pub struct Solid<const D: usize> {
+    pub(super) spec: SolidSpec<D>,
+    pub(super) lame: Vec<Lame>,
+    pub(super) points: CellPoints<D>,
+    pub(super) mass: Mass<D>,
+    /// Fibres of each cell.
+    pub(super) fibres_in: Vec<Vec<FibreIn>>,
+    pub(super) pattern: Arc<Pattern>,
+    pub(super) cholesky: Arc<Cholesky>,
+}
+
+fn exists(what: &'static str, number: usize, count: usize) -> Result<(), SolidError> {
+    if number < count { Ok(()) } else { Err(SolidError::Missing { what, number, count }) }
+}
+
+impl<const D: usize> Solid<D> {
+    /// Checks and prepares a solid.
+    ///
+    /// # Errors
+    /// [`SolidError`] for what does not fit together.
+    pub fn new(spec: SolidSpec<D>) -> Result<Self, SolidError> {
+        if (D == 3) != (spec.frame == Frame::Space) || !(2..=3).contains(&D) {
+            return Err(SolidError::Frame(D));
+        }
+        let (n_cells, n_nodes) = (spec.mesh.n_cells(), spec.mesh.nodes.len());
+        for material in &spec.materials {
+            material.check()?;
+        }
+        let materials = spec.material_of.iter().copied().chain([0]);
+        for material in materials {
+            exists("material", material, spec.materials.len())?;
+        }
+        if !spec.material_of.is_empty() && spec.material_of.len() != n_cells {
+            return Err(SolidError::Length {
+                what: "materials of cells",
+                found: spec.material_of.len(),
+                expected: n_cells,
+            });
+        }
+        for node in &spec.mesh.cells {
+            exists("node", *node, n_nodes)?;
+        }
+        let points = CellPoints::new(&spec.mesh, spec.frame)?;
+        let pattern = Pattern::new(&spec.mesh.cells, points.n_local, &held_components(&spec)?, D);
+        if pattern.n_unknowns() == 0 {
+            return Err(SolidError::AllHeld);
+        }
+        let density = |cell: usize| material_of(&spec, cell).density;
+        let mass = Mass::new(&spec.mesh, &points, density, &pattern);
+        let cholesky = Cholesky::new(&pattern)?;
+        Ok(Self {
+            lame: spec.materials.iter().map(Material::lame).collect(),
+            fibres_in: fibres_in(&spec)?,
+            points,
+            mass,
+            pattern: Arc::new(pattern),
+            cholesky: Arc::new(cholesky),
+            spec,
+        })
+    }
+
+    /// What it was made from.
+    #[must_use]
+    pub fn spec(&self) -> &SolidSpec<D> {
+        &self.spec
+    }
+
+    /// Gives a material other moduli, with the mesh and all that follows from it kept; its density stays.
+    ///
+    /// # Errors
+    /// [`SolidError::Material`] and [`SolidError::Missing`].
+    pub fn set_moduli(
+        &mut self,
+        number: usize,
+        young: f64,
+        poisson: f64,
+    ) -> Result<(), SolidError> {
+        exists("material", number, self.spec.materials.len())?;
+        let material = Material { young, poisson, ..self.spec.materials[number] };
+        material.check()?;
+        self.spec.materials[number] = material;
+        self.lame[number] = material.lame();
+        Ok(())
+    }
+
+    /// Gives a set of fibres another stiffness (Pa).
+    ///
+    /// # Errors
+    /// [`SolidError::Missing`].
+    pub fn set_fibre_stiffness(&mut self, set: usize, stiffness: f64) -> Result<(), SolidError> {
+        exists("set of fibres", set, self.spec.fibres.len())?;
+        self.spec.fibres[set].stiffness = stiffness;
+        Ok(())
+    }
+
+    /// Places of all nodes at rest.
+    #[must_use]
+    pub fn at_rest(&self) -> Vec<f64> {
+        self.spec.mesh.nodes.iter().flat_map(|x| x.iter().copied().collect::<Vec<_>>()).collect()
+    }
+
+    /// Number of components: D for each node.
+    #[must_use]
+    pub fn n_components(&self) -> usize {
+        D * self.spec.mesh.nodes.len()
+    }
+
+    /// Number of components that are free.
+    #[must_use]
+    pub fn n_unknowns(&self) -> usize {
+        self.pattern.n_unknowns()
+    }
+
+    /// Mass times the velocities or accelerations of all nodes.
+    #[must_use]
+    pub fn times_mass(&self, all: &[f64]) -> Vec<f64> {
+        self.mass.times(all)
+    }
+
+    /// Forces (N) of an acceleration (m/s2) that is the same everywhere, as of gravity.
+    #[must_use]
+    pub fn weight(&self, acceleration: Point<D>) -> Vec<f64> {
+        let all: Vec<f64> = self
+            .spec
+            .mesh
+            .nodes
+            .iter()
+            .flat_map(|_| acceleration.iter().copied().collect::<Vec<_>>())
+            .collect();
+        self.mass.times(&all)
+    }
+
+    /// Volume at rest (m3; per length in the plane).
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.points.weights.iter().sum()
+    }
+
+    /// The material of a cell.
+    pub(super) fn material_of(&self, cell: usize) -> usize {
+        self.spec.material_of.get(cell).copied().unwrap_or(0)
+    }
+
+    /// Nodes of a cell.
+    pub(super) fn nodes_of(&self, cell: usize) -> &[usize] {
+        let n = self.points.n_local;
+        &self.spec.mesh.cells[cell * n..(cell + 1) * n]
+    }
+
+    /// Values of all components at the nodes of a cell.
+    pub(super) fn gather<'a>(
+        &self,
+        cell: usize,
+        all: &[f64],
+        local: &'a mut [Point<D>],
+    ) -> &'a [Point<D>] {
+        let nodes = self.nodes_of(cell);
+        for (value, node) in local.iter_mut().zip(nodes) {
+            *value = Point::<D>::from_column_slice(&all[node * D..node * D + D]);
+        }
+        &local[..nodes.len()]
+    }
+
+    /// Strains of a state by point, for instance of a level before.
+    pub(super) fn deformations(&self, places: &[f64]) -> Vec<Tensor> {
+        let mut all = Vec::with_capacity(self.points.weights.len());
+        let mut local = [Point::<D>::zeros(); super::geometry::MAX_NODES];
+        for cell in 0..self.spec.mesh.n_cells() {
+            let local = self.gather(cell, places, &mut local);
+            all.extend(
+                (0..self.points.n_points).map(|k| self.points.at(cell, k).deformation(local)),
+            );
+        }
+        all
+    }
+}
+
+/// The material of a cell of a specification.
+fn material_of<const D: usize>(spec: &SolidSpec<D>, cell: usize) -> &Material {
+    &spec.materials[spec.material_of.get(cell).copied().unwrap_or(0)]
+}
+
+/// Whether each component is held: those named, and of nodes on an axis the distance from it.
+fn held_components<const D: usize>(spec: &SolidSpec<D>) -> Result<Vec<bool>, SolidError> {
+    let mut held = vec![false; D * spec.mesh.nodes.len()];
+    for component in &spec.held {
+        exists("component", *component, held.len())?;
+        held[*component] = true;
+    }
+    if spec.frame == Frame::Axis {
+        for (node, place) in spec.mesh.nodes.iter().enumerate() {
+            held[D * node + 1] |= place[1] == 0.0;
+        }
+    }
+    Ok(held)
+}
+
+/// Fibres by cell.
+fn fibres_in<const D: usize>(spec: &SolidSpec<D>) -> Result<Vec<Vec<FibreIn>>, SolidError> {
+    let mut all = vec![Vec::new(); spec.mesh.n_cells()];
+    for (set, fibres) in spec.fibres.iter().enumerate() {
+        if fibres.cells.len() != fibres.directions.len() {
+            return Err(SolidError::Length {
+                what: "directions of fibres",
+                found: fibres.directions.len(),
+                expected: fibres.cells.len(),
+            });
+        }
+        for (cell, direction) in fibres.cells.iter().zip(&fibres.directions) {
+            exists("cell", *cell, all.len())?;
+            let length = direction.norm();
+            if !(length > 0.0 && length.is_finite()) {
+                return Err(SolidError::Direction(*cell));
+            }
+            all[*cell].push(FibreIn { set, direction: direction / length });
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,26 @@
+//! Solids of simplices: their energy, forces and stiffness, equilibria, steps in time and sensitivities.
+
+mod assemble;
+mod build;
+mod cholesky;
+mod error;
+mod geometry;
+mod mass;
+mod mesh;
+mod modes;
+mod newton;
+mod pattern;
+mod potential;
+mod quadrature;
+mod sensitivity;
+mod step;
+
+pub use assemble::{StrainHistory, StrainLevel};
+pub use build::{Fibres, Solid, SolidSpec};
+pub use cholesky::{Cholesky, Factor};
+pub use error::SolidError;
+pub use mesh::{Frame, Order, SolidFacet, SolidMesh};
+pub use newton::{Minimiser, Minimum};
+pub use potential::{Inertia, Potential, Way};
+pub use sensitivity::Sensitivity;
+pub use step::{Difference, Level, Motion, Scheme, StepInput};

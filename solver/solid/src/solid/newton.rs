@@ -1,0 +1,206 @@
+//! `Minimiser`: Newton's method for potentials, with a line search, and factors that are kept while they serve.
+
+use super::SolidError;
+use super::cholesky::Factor;
+use super::potential::{Potential, Slope, norm};
+use crate::material::Curvature;
+
+/// Part of the decrease the slope promises that a step has to reach (Armijo's rule).
+const ARMIJO: f64 = 1e-4;
+
+/// Factors are kept while an iteration divides the residual by more than one over this.
+const KEPT: f64 = 0.3;
+
+/// Halvings of a step at most: from a state that is not turned over, one this short decreases the potential.
+const N_HALVINGS: usize = 40;
+
+/// Times the rounding of the potential within which a decrease cannot be seen.
+const ROUNDINGS: f64 = 16.0;
+
+/// Times the rounding of the inner forces that counts as balance.
+const BALANCED: f64 = 2.0;
+
+/// What is added to the diagonal, of its largest entry, where a positive part is singular.
+const SHIFT: f64 = 1e-10;
+
+/// Finds minima of potentials of one solid, step after step.
+#[derive(Debug, Clone)]
+pub struct Minimiser {
+    /// The residual that ends a search, of the forces that balance.
+    pub tolerance: f64,
+    /// Iterations at most.
+    pub max_iterations: usize,
+    factor: Option<Factor>,
+    /// Factorisations made so far.
+    pub n_factors: usize,
+}
+
+/// A minimum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Minimum {
+    /// Places of all nodes (m).
+    pub places: Vec<f64>,
+    /// Iterations it took.
+    pub iterations: usize,
+    /// Norm of the forces left (N).
+    pub residual: f64,
+    /// Slope of the potential by all components: where held, the force (N) the body is held with.
+    pub slope: Vec<f64>,
+}
+
+impl Default for Minimiser {
+    fn default() -> Self {
+        Self { tolerance: 1e-10, max_iterations: 200, factor: None, n_factors: 0 }
+    }
+}
+
+impl Minimiser {
+    /// One with a relative residual that ends a search.
+    #[must_use]
+    pub fn with_tolerance(tolerance: f64) -> Self {
+        Self { tolerance, ..Self::default() }
+    }
+
+    /// The factors of the last iteration, which need not be those of its end.
+    #[must_use]
+    pub fn factor(&self) -> Option<&Factor> {
+        self.factor.as_ref()
+    }
+
+    /// Takes factors from elsewhere, or forgets those it has.
+    pub fn set_factor(&mut self, factor: Option<Factor>) {
+        self.factor = factor;
+    }
+
+    /// The minimum near a state, whose held components stay.
+    ///
+    /// # Errors
+    /// [`SolidError::TurnedOver`] where a cell is from the start, [`SolidError::NotConverged`] and
+    /// [`SolidError::Singular`].
+    pub fn minimise<const D: usize>(
+        &mut self,
+        potential: &Potential<'_, D>,
+        start: &[f64],
+    ) -> Result<Minimum, SolidError> {
+        let solid = potential.solid;
+        check_lengths(potential, start)?;
+        let mut places = start.to_vec();
+        let mut at = potential
+            .slope(&places)
+            .ok_or_else(|| SolidError::TurnedOver(solid.turned_over(start).unwrap_or_default()))?;
+        let rounding = potential.rounding(start);
+        let mut scale = at.scale;
+        let mut is_stale = false;
+        for iterations in 0..self.max_iterations {
+            let right = solid.pattern.free(&at.slope);
+            let residual = norm(&right);
+            scale = scale.max(at.scale);
+            if residual <= (self.tolerance * scale).max(BALANCED * rounding.slope) {
+                return Ok(Minimum { places, iterations, residual, slope: at.slope });
+            }
+            let is_fresh = self.factor.is_none() || is_stale;
+            if is_fresh {
+                self.factor = Some(self.factorise(potential, &places)?);
+            }
+            let Some(factor) = &self.factor else { return Err(SolidError::Singular) };
+            let mut direction = right.clone();
+            solid.cholesky.solve(factor, &mut direction);
+            let slope: f64 = right.iter().zip(&direction).map(|(a, b)| a * b).sum();
+            let direction = solid.pattern.all(&direction);
+            let promise = Promise { slope, noise: ROUNDINGS * rounding.value };
+            let Some(next) = search(potential, &mut places, &at, &direction, promise) else {
+                if is_fresh {
+                    return Err(SolidError::NotConverged { iterations, residual, scale });
+                }
+                is_stale = true;
+                continue;
+            };
+            is_stale = norm(&solid.pattern.free(&next.slope)) > KEPT * residual;
+            at = next;
+        }
+        let residual = norm(&solid.pattern.free(&at.slope));
+        Err(SolidError::NotConverged { iterations: self.max_iterations, residual, scale })
+    }
+
+    /// Factors of the second derivatives, or where these are not positive, of their positive part.
+    fn factorise<const D: usize>(
+        &mut self,
+        potential: &Potential<'_, D>,
+        places: &[f64],
+    ) -> Result<Factor, SolidError> {
+        let solid = potential.solid;
+        for curvature in [Curvature::True, Curvature::Positive] {
+            let mut values = potential.curvature(places, curvature).ok_or(SolidError::Singular)?;
+            self.n_factors += 1;
+            if let Some(factor) = solid.cholesky.factorise(&solid.pattern, &values) {
+                return Ok(factor);
+            }
+            if curvature == Curvature::Positive {
+                let diagonal = &solid.pattern.starts[..solid.pattern.n_unknowns()];
+                let largest = diagonal.iter().map(|at| values[*at]).fold(0.0, f64::max);
+                for at in diagonal {
+                    values[*at] += SHIFT * largest;
+                }
+                let factor = solid.cholesky.factorise(&solid.pattern, &values);
+                return factor.ok_or(SolidError::Singular);
+            }
+        }
+        Err(SolidError::Singular)
+    }
+}
+
+/// What a direction promises: the slope of the potential along it (J), and the decrease that drowns in rounding.
+#[derive(Debug, Clone, Copy)]
+struct Promise {
+    slope: f64,
+    noise: f64,
+}
+
+/// Goes against a direction as far as the potential decreases as its slope promises; none where it does not.
+fn search<const D: usize>(
+    potential: &Potential<'_, D>,
+    places: &mut Vec<f64>,
+    at: &Slope,
+    direction: &[f64],
+    Promise { slope, noise }: Promise,
+) -> Option<Slope> {
+    let before = norm(&potential.solid.pattern.free(&at.slope));
+    let mut length = 1.0;
+    for _ in 0..N_HALVINGS {
+        let trial: Vec<f64> =
+            places.iter().zip(direction).map(|(x, step)| x - length * step).collect();
+        if let Some(next) = potential.slope(&trial) {
+            let after = norm(&potential.solid.pattern.free(&next.slope));
+            let is_lower =
+                next.value < at.value && next.value <= at.value - ARMIJO * length * slope;
+            // Near the minimum the decrease drowns in rounding, and the residual still says
+            let is_nearer = next.value <= at.value + noise && after < before;
+            if is_lower || is_nearer {
+                *places = trial;
+                return Some(next);
+            }
+        }
+        length *= 0.5;
+    }
+    None
+}
+
+/// Whether all lists have the length the solid asks for.
+fn check_lengths<const D: usize>(
+    potential: &Potential<'_, D>,
+    start: &[f64],
+) -> Result<(), SolidError> {
+    let n = potential.solid.n_components();
+    let n_sets = potential.solid.spec.fibres.len();
+    let lists = [
+        ("places of nodes", start.len(), n),
+        ("loads", potential.loads.len(), n),
+        ("stretches of fibres", potential.targets.len(), n_sets),
+    ];
+    for (what, found, expected) in lists {
+        if found != expected {
+            return Err(SolidError::Length { what, found, expected });
+        }
+    }
+    Ok(())
+}

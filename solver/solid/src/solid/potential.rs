@@ -1,0 +1,190 @@
+//! `Potential`: what a solid minimises at rest, or in one implicit time step.
+
+use alewife_mesh::Point;
+
+use super::assemble::{Controls, StrainHistory};
+use super::build::Solid;
+use super::geometry::MAX_NODES;
+use crate::material::Curvature;
+
+/// Inertia of a step: the energy c/2 (x - y)^2 in the norm of the mass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inertia {
+    /// c (1/s2).
+    pub factor: f64,
+    /// The places y that the nodes would reach without forces (m).
+    pub coasted: Vec<f64>,
+}
+
+/// Inner forces as their mean along the straight way from one state to the sought one: with the trapezoidal
+/// rule for the places, energy is kept for ever.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Way {
+    /// Where it begins (m).
+    pub from: Vec<f64>,
+    /// Places on it, from 0 to 1, and their weights: Gauss-Legendre.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Elastic energy, less the work of loads, and with inertia.
+#[derive(Debug, Clone)]
+pub struct Potential<'a, const D: usize> {
+    /// The body.
+    pub solid: &'a Solid<D>,
+    /// The stretch that each set of fibres is told.
+    pub targets: &'a [f64],
+    /// Loads (N) on all components that do not depend on the state.
+    pub loads: &'a [f64],
+    /// Inertia, in a step.
+    pub inertia: Option<Inertia>,
+    /// Strains of levels before, where there is damping.
+    pub damping: Option<StrainHistory>,
+    /// The way along which the inner forces are averaged, in a conservative step.
+    pub way: Option<Way>,
+}
+
+/// A potential and its slope.
+#[derive(Debug, Clone)]
+pub(super) struct Slope {
+    /// The potential (J).
+    pub value: f64,
+    /// Its derivatives (N), by all components; where held, less the force that holds.
+    pub slope: Vec<f64>,
+    /// Norm (N) of the largest of the forces of free components that balance.
+    pub scale: f64,
+}
+
+impl<'a, const D: usize> Potential<'a, D> {
+    /// The potential of a solid at rest under loads.
+    #[must_use]
+    pub fn at_rest(solid: &'a Solid<D>, targets: &'a [f64], loads: &'a [f64]) -> Self {
+        Self { solid, targets, loads, inertia: None, damping: None, way: None }
+    }
+
+    pub(super) fn controls(&self) -> Controls<'_> {
+        Controls { targets: self.targets, damping: self.damping.as_ref() }
+    }
+
+    /// States whose inner forces are summed, with their weights and how far they follow the sought one.
+    fn stages(&self, places: &[f64]) -> Vec<Stage> {
+        let Some(way) = &self.way else {
+            return vec![Stage { places: places.to_vec(), weight: 1.0, share: 1.0 }];
+        };
+        let between = |share: f64| {
+            let pairs = way.from.iter().zip(places);
+            pairs.map(|(from, to)| from + share * (to - from)).collect()
+        };
+        let stages = way.points.iter();
+        stages
+            .map(|[share, weight]| Stage {
+                places: between(*share),
+                weight: *weight,
+                share: *share,
+            })
+            .collect()
+    }
+
+    /// The potential and its slope; none where a cell is turned over.
+    pub(super) fn slope(&self, places: &[f64]) -> Option<Slope> {
+        let mut slope = vec![0.0; places.len()];
+        let mut value = 0.0;
+        for stage in self.stages(places) {
+            let energy =
+                self.solid.add_forces(&stage.places, self.controls(), stage.weight, &mut slope)?;
+            value += stage.weight / stage.share * energy;
+        }
+        let free = |all: &[f64]| norm(&self.solid.pattern.free(all));
+        let mut scale = free(&slope).max(free(self.loads));
+        for (entry, (load, place)) in slope.iter_mut().zip(self.loads.iter().zip(places)) {
+            *entry -= load;
+            value -= load * place;
+        }
+        if let Some(inertia) = &self.inertia {
+            let apart: Vec<f64> = places.iter().zip(&inertia.coasted).map(|(x, y)| x - y).collect();
+            let forces = self.solid.mass.times(&apart);
+            for ((entry, force), apart) in slope.iter_mut().zip(&forces).zip(&apart) {
+                *entry += inertia.factor * force;
+                value += 0.5 * inertia.factor * force * apart;
+            }
+            scale = scale.max(inertia.factor * free(&forces));
+        }
+        Some(Slope { value, slope, scale })
+    }
+
+    /// Its second derivatives by the unknowns; none where a cell is turned over.
+    pub(super) fn curvature(&self, places: &[f64], curvature: Curvature) -> Option<Vec<f64>> {
+        let pattern = &self.solid.pattern;
+        let mut values = vec![0.0; pattern.n_entries()];
+        for stage in self.stages(places) {
+            let factor = stage.weight * stage.share;
+            let is_whole = self.solid.add_stiffness(
+                &stage.places,
+                self.controls(),
+                curvature,
+                factor,
+                &mut values,
+            );
+            if !is_whole {
+                return None;
+            }
+        }
+        if let Some(inertia) = &self.inertia {
+            self.solid.mass.add(inertia.factor, pattern, &mut values);
+        }
+        Some(values)
+    }
+
+    /// What rounding may leave at a state: places have as many digits as they have, and strains are differences
+    /// of them over the size of a cell.
+    pub(super) fn rounding(&self, places: &[f64]) -> Rounding {
+        let solid = self.solid;
+        let mut forces = vec![0.0; places.len()];
+        let mut energy = 0.0;
+        let mut local = [Point::<D>::zeros(); MAX_NODES];
+        for cell in 0..solid.spec.mesh.n_cells() {
+            let lame = solid.lame[solid.material_of(cell)];
+            let fibres = &solid.fibres_in[cell];
+            let stiffness: f64 = fibres.iter().map(|f| solid.spec.fibres[f.set].stiffness).sum();
+            let modulus = 2.0 * lame.shear + lame.volume.abs() + stiffness;
+            let local = solid.gather(cell, places, &mut local);
+            for k in 0..solid.points.n_points {
+                let at = solid.points.at(cell, k);
+                let pairs = local.iter().zip(at.gradients);
+                let lost: f64 = pairs.map(|(place, slope)| place.norm() * slope.norm()).sum();
+                energy += modulus * at.weight;
+                for (node, slope) in solid.nodes_of(cell).iter().zip(at.gradients) {
+                    forces[D * node] += modulus * (1.0 + lost) * at.weight * slope.norm();
+                }
+            }
+        }
+        let mut slope = norm(&forces);
+        if let Some(inertia) = &self.inertia {
+            let sizes: Vec<f64> = places.iter().map(|place| place.abs()).collect();
+            let momentum = solid.mass.times(&sizes);
+            slope = slope.hypot(inertia.factor * norm(&momentum));
+            let apart = places.iter().zip(&inertia.coasted).map(|(x, y)| (x - y).abs());
+            energy += inertia.factor * momentum.iter().zip(apart).map(|(p, x)| p * x).sum::<f64>();
+        }
+        energy += self.loads.iter().zip(places).map(|(load, x)| (load * x).abs()).sum::<f64>();
+        Rounding { value: f64::EPSILON * energy, slope: f64::EPSILON * slope }
+    }
+}
+
+/// What rounding may leave of a potential (J) and of the norm of its slope (N).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rounding {
+    pub value: f64,
+    pub slope: f64,
+}
+
+/// A state whose inner forces count.
+struct Stage {
+    places: Vec<f64>,
+    weight: f64,
+    share: f64,
+}
+
+/// Euclidean norm.
+pub(super) fn norm(all: &[f64]) -> f64 {
+    all.iter().map(|value| value * value).sum::<f64>().sqrt()
+}

@@ -1,0 +1,8 @@
+//! Solids against exact solutions, benchmarks and conservation laws.
+
+mod beams;
+mod benchmarks;
+mod convergence;
+mod meshes;
+mod patch;
+mod time;
