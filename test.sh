@@ -26,7 +26,8 @@ install_system_packages() {
 
 python() {
     install_system_packages
-    [ -n "${ALEWIFE_BIN-}" ] || cargo build --release
+    # With the extension module of sessions, which lies beside the program
+    [ -n "${ALEWIFE_BIN-}" ] || cargo build --release -p alewife -p alewife-session
     export ALEWIFE_BIN=${ALEWIFE_BIN-$PWD/target/release/alewife}
     export VTK_DEFAULT_OPENGL_WINDOW=vtkOSOpenGLRenderWindow
     [ -x target/venv/bin/python ] || python3 -m venv target/venv

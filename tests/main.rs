@@ -7,6 +7,7 @@ mod documentation;
 mod linear_solver;
 mod motion;
 mod moving;
+mod session;
 mod shear;
 mod spatial;
 mod swimming;

@@ -6,6 +6,8 @@ packages are those of `pyproject.toml`, our own are found where they lie, and so
 
 from __future__ import annotations
 
+import os
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -28,6 +30,22 @@ def requirements(extra: str, project: dict) -> list[str]:
     return found
 
 
+def install_sessions() -> None:
+    """Put the extension module that lies beside the program where Python finds it.
+
+    Without one, as where a program is tested that was built by itself, sessions are not tested.
+    """
+    installed = Path(sysconfig.get_path("platlib")) / "alewife_session.abi3.so"
+    beside = Path(os.environ["ALEWIFE_BIN"]).parent
+    built = [beside / f"libalewife_session.{kind}" for kind in ("so", "dylib")]
+    found = next((one for one in built if one.is_file()), None)
+    installed.unlink(missing_ok=True)
+    if found is None:
+        print(f"note: no libalewife_session beside {beside}; sessions are not tested")
+    else:
+        shutil.copyfile(found, installed)
+
+
 def main() -> None:
     """Install, unless the same was installed before."""
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
@@ -41,6 +59,7 @@ def main() -> None:
         stamp.write_text(text, encoding="utf-8")
     sources = Path(sysconfig.get_path("purelib")) / "alewife.pth"
     sources.write_text(f"{ROOT / 'postprocess' / 'src'}\n", encoding="utf-8")
+    install_sessions()
     for script in (ROOT / "postprocess" / "commands" / "scripts").iterdir():
         command = Path(sysconfig.get_path("scripts")) / script.name
         text = script.read_text(encoding="utf-8").removeprefix("#!python\n")

@@ -26,7 +26,7 @@ pub fn sources(folder: &str) -> BTreeMap<String, String> {
     found
 }
 
-/// Source folders of all crates.
+/// Source folders of all crates, but for the extension module of Python, whose signatures are those of Python.
 pub const CRATES: [&str; 8] = [
     "mesh/src",
     "solver/case/src",

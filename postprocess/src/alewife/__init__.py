@@ -17,6 +17,7 @@ from alewife.program import (
     find_program,
 )
 from alewife.run import CaseRun
+from alewife.session import Session, State, session
 from alewife.sweep import sweep
 
 __all__ = [
@@ -25,9 +26,12 @@ __all__ = [
     "BadCaseError",
     "Case",
     "CaseRun",
+    "Session",
     "SolverError",
+    "State",
     "StoppedError",
     "find_program",
     "load",
+    "session",
     "sweep",
 ]

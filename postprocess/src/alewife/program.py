@@ -104,7 +104,11 @@ def _interrupt(process: subprocess.Popen[str]) -> None:
 
 
 def _error(messages: str, code: int, command: list[str]) -> AlewifeError:
-    text = messages.strip() or f"{' '.join(command)} ended with code {code}"
+    return error_of(messages.strip() or f"{' '.join(command)} ended with code {code}", code)
+
+
+def error_of(text: str, code: int) -> AlewifeError:
+    """Make the exception for what the program says, by its exit code."""
     for kind, codes in (
         (BadCaseError, _BAD_CASE),
         (SolverError, _SOLVER),

@@ -8,6 +8,7 @@ mod spec;
 mod sweep;
 mod text;
 
+pub use model::commands::{Asked, CommandError, Commands};
 pub use model::derived_number::DerivedNumber;
 pub use model::numbers::{derived_numbers, geometry_name, number_table, rounded, significant};
 pub use model::region::{normal_axis, opposite};
@@ -19,6 +20,7 @@ pub use quantity::{
 pub use read::CaseFile;
 pub use read::library;
 pub use read::problem_keys::collect_keys;
+pub use read::recording::Recording;
 pub use read::schema::schema;
 pub use rules::{at_rest, check};
 pub use spec::body::axial_vector::AxialVector;
@@ -38,6 +40,7 @@ pub use spec::body::{
     PartSpec, ShapeSpec,
 };
 pub use spec::case::Case;
+pub use spec::command::Command;
 pub use spec::comparison::reference::{
     Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant,
 };

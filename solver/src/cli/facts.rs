@@ -44,6 +44,9 @@ pub fn facts(file: &CaseFile) -> String {
     for swimmer in &model.swimmers {
         line("swimmer", swimmer_line(model, swimmer));
     }
+    if !model.commands.is_empty() {
+        line("commands", model.commands.names().join(", "));
+    }
     line("time", time(case));
     if let Some(frame) = &case.frame {
         line("frame", format!("travels with {frame}"));
@@ -239,6 +242,7 @@ fn joint_line(joint: &Joint) -> String {
         Stroke::Steady { start, rate } => {
             format!("{}, turning by {} in a time of 1", number(*start), number(*rate))
         }
+        Stroke::Command(_) => format!("{} on command", stroke.range().map(number).join(" to ")),
         _ => stroke.range().map(number).join(" to "),
     };
     let stroke = |stroke: &Stroke| range(stroke, significant);

@@ -31,7 +31,7 @@ mod warnings;
 pub use console::{Progress, Tally, columns_of, print_line, start_log};
 pub use files::{
     Checkpoint, CheckpointFiles, FieldFiles, SeriesFile, field_file_size, latest_checkpoint,
-    read_state, state_size,
+    read_state, state_size, write_state_file,
 };
 pub use live::LiveServer;
 pub use message_file::{MessageFile, MessageSummary, read_messages};

@@ -122,9 +122,12 @@ pub fn exit_of(error: &RunError) -> Exit {
         | RunError::BlownUp { .. } => Exit::Diverged,
         RunError::Unsupported(_)
         | RunError::Resume(_)
+        | RunError::Command(_)
+        | RunError::Waits { .. }
         | RunError::TooLarge { .. }
         | RunError::TooManyCells { .. } => Exit::BadCase,
         RunError::Mesh(_) | RunError::Remesh { .. } => Exit::Mesh,
+        RunError::Session(_) => Exit::Usage,
         RunError::Output(_) => Exit::InputOutput,
     }
 }

@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::continuation::{Beginning, beginning, n_requeued};
 use super::failure::{Exit, Failure};
 use super::plan::{Finished, Outcome, RunPlan, Stopped};
+use super::replay::recording;
 use super::resume::{is_inside, read_resumed};
 use super::signal::SignalWatch;
 use super::simulate::{Resumed, RunInto, simulate_into};
@@ -39,6 +40,8 @@ where
 {
     let RunPlan { file, out, .. } = plan;
     let (name, started) = (file.full_name(), Instant::now());
+    // Before anything of a directory is touched
+    let recording = recording(plan)?;
     // From here on, so that no signal ends the process without a word, and no other process writes to what is read
     let watch = SignalWatch::start()?;
     let limit = WallLimit::new(plan.max_walltime);
@@ -77,7 +80,7 @@ where
 
     let shown = Shown { quiet: plan.quiet, live };
     let run = RunInto { directory: &directory, shown, watch, limit };
-    let summary = match simulate_into(&file.model, resumed.as_ref(), run) {
+    let summary = match simulate_into(&file.model, resumed.as_ref(), recording.as_ref(), run) {
         Err(error @ RunError::Flow(FlowError::Stopped { step, .. })) => {
             let is_over = has_limit_asked.is_some_and(|asked| asked.load(Ordering::Relaxed));
             return Ok(Outcome::Stopped(Stopped {

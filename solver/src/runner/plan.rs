@@ -22,6 +22,8 @@ pub struct RunPlan {
     pub threads: Option<usize>,
     /// A state to continue from, or a run that holds one.
     pub resume: Option<PathBuf>,
+    /// What is asked for while it goes on, if it repeats a session: a `commands.csv`.
+    pub replay: Option<PathBuf>,
     /// Whether a finished run continues where its case ends later now.
     pub continues: bool,
     /// Whether a run that is in the directory is replaced, and not continued.
@@ -51,6 +53,7 @@ impl RunPlan {
             lock: None,
             threads: None,
             resume: None,
+            replay: None,
             continues: false,
             overwrite: false,
             max_walltime: None,

@@ -6,7 +6,7 @@ use super::signal::SignalWatch;
 use super::stop_file::StopFile;
 use super::threads;
 use super::wall_limit::WallLimit;
-use crate::case::Model;
+use crate::case::{Model, Recording};
 use crate::observer::{self, History, RunDirectory, Shown, WriteTimes};
 use crate::run::{self, Dimension, RunError, RunSummary, SavedState, Solve};
 
@@ -47,15 +47,16 @@ pub fn simulate(model: &Model, watch: SignalWatch) -> Result<RunSummary, RunErro
 /// Runs a case of any dimension from its beginning.
 pub fn simulate_afresh(model: &Model, run: RunInto<'_>) -> Result<RunSummary, RunError> {
     match model.case.geometry.dimensions() {
-        2 => simulate_into::<2>(model, None, run),
-        _ => simulate_into::<3>(model, None, run),
+        2 => simulate_into::<2>(model, None, None, run),
+        _ => simulate_into::<3>(model, None, None, run),
     }
 }
 
-/// Runs a case, from a saved state if there is one.
+/// Runs a case, from a saved state if there is one, and with what is recorded if it repeats a session.
 pub fn simulate_into<const D: usize>(
     model: &Model,
     resumed: Option<&Resumed<D>>,
+    recording: Option<&Recording>,
     run: RunInto<'_>,
 ) -> Result<RunSummary, RunError>
 where
@@ -70,6 +71,7 @@ where
             observers.push(Box::new(limit.learning_from(&writes)));
         }
         observers.push(Box::new(StopFile::new(run.directory.path())));
-        run::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
+        let start = run::Start { saved: resumed.map(|resumed| &resumed.state), recording };
+        run::replay(model, start, &mut observers)
     })
 }

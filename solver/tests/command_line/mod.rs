@@ -1,6 +1,7 @@
 //! The program does what it says: lists, shows, meshes, runs and validates the shipped example.
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
 
+mod commands;
 mod continuing;
 mod costs;
 mod faults;

@@ -1,6 +1,8 @@
 //! `Model`: what follows from a case: all bodies and joints, those of its swimmers included.
 
 pub(crate) mod balls;
+pub(crate) mod commands;
+mod connect;
 pub(crate) mod copies;
 pub(crate) mod derived_number;
 mod geometry;
@@ -14,6 +16,7 @@ pub(crate) mod speed;
 
 use std::collections::HashMap;
 
+use self::commands::Commands;
 use self::copies::{Individual, individuals, product};
 use self::parts::{Part, parts, poses};
 use crate::text::diagnostic::CaseError;
@@ -37,6 +40,10 @@ pub struct Model {
     pub joints: Vec<Joint>,
     /// Individuals of each `[[swimmer]]`, then bodies with a gait that belong to none.
     pub swimmers: Vec<SwimmerModel>,
+    /// All that is asked for while a run goes on.
+    pub commands: Commands,
+    /// Names of the joints of swimmers, after those of `[[joint]]`: `NAME.joint.2`.
+    joint_names: Vec<String>,
     /// Number of the `[[swimmer]]` of each body after those of `[[body]]`.
     swimmer_of_bodies: Vec<usize>,
     /// Number of the `[[swimmer]]` of each joint after those of `[[joint]]`.
@@ -73,6 +80,8 @@ impl Model {
             bodies: case.body.clone(),
             joints: case.joint.clone(),
             swimmers: Vec::new(),
+            commands: Commands::default(),
+            joint_names: Vec::new(),
             swimmer_of_bodies: Vec::new(),
             swimmer_of_joints: Vec::new(),
             by_name: HashMap::new(),
@@ -106,6 +115,7 @@ impl Model {
                 model.joint_above[child] = Some(*joint);
             }
         }
+        model.connect_commands();
         Ok(model)
     }
 
@@ -210,6 +220,7 @@ impl Model {
                 let parent = format!("{name}-{}", attachment.parent + 1);
                 self.joints.push(attachment.joint(parent, own.clone()));
                 self.swimmer_of_joints.push(index);
+                self.joint_names.push(format!("{name}.joint.{}", attachment.number + 1));
                 self.register_child(self.joints.len() - 1);
             }
             self.bodies.push(Body {

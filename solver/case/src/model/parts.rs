@@ -42,13 +42,17 @@ pub struct Attachment {
     pub on_parent: [f64; 2],
     pub on_child: [f64; 2],
     pub kind: JointKind,
+    /// Its number among the arms or joints of the swimmer as they are written, from 0.
+    pub number: usize,
 }
 
 impl Attachment {
     /// An arm from origin to origin.
-    fn arm(parent: usize, length: &Stroke, direction: f64, along: Option<[f64; 3]>) -> Self {
+    fn arm(parent: usize, number: usize, length: &Stroke, to: Direction) -> Self {
+        let Direction { angle, along } = to;
+        let direction = angle.unwrap_or(0.0);
         let kind = JointKind::Arm { length: length.clone(), direction, along };
-        Self { parent, on_parent: [0.0; 2], on_child: [0.0; 2], kind }
+        Self { parent, on_parent: [0.0; 2], on_child: [0.0; 2], kind, number }
     }
 
     /// The same between bodies with names.
@@ -142,7 +146,8 @@ fn linked_spheres(
 ) -> Vec<Part> {
     let attachment = |nth: usize| {
         let Neighbour { parent, between, is_after } = neighbour(nth, radii.len())?;
-        Some(Attachment::arm(parent, &arms[between], if is_after { 0.0 } else { PI }, None))
+        let to = Direction { angle: Some(if is_after { 0.0 } else { PI }), along: None };
+        Some(Attachment::arm(parent, between, &arms[between], to))
     };
     let part = |(nth, radius): (usize, &f64)| Part {
         shape: round_shape(*radius, geometry),
@@ -180,8 +185,9 @@ fn star(
         let even = TAU * nth as f64 / radii.len() as f64;
         let Direction { angle, along } = direction(nth);
         // A vector takes the place of the angle
-        let angle = angle.unwrap_or(if along.is_some() { 0.0 } else { even });
-        parts.push(disc(*radius, Some(Attachment::arm(0, arm, angle, along))));
+        let angle = angle.or(along.is_none().then_some(even));
+        let attachment = Attachment::arm(0, nth, arm, Direction { angle, along });
+        parts.push(disc(*radius, Some(attachment)));
     }
     parts
 }
@@ -209,7 +215,7 @@ fn chain(
         let (on_parent, on_child) =
             if is_after { (behind(parent), before(nth)) } else { (before(parent), behind(nth)) };
         let kind = JointKind::from(joints[between].clone());
-        Some(Attachment { parent, on_parent, on_child, kind })
+        Some(Attachment { parent, on_parent, on_child, kind, number: between })
     };
     let part = |(nth, link): (usize, &Link)| Part {
         shape: match (link.shape(), geometry) {
@@ -273,7 +279,7 @@ pub fn poses(parts: &[Part], root: PartPose) -> Vec<PartPose> {
         }
         for nth in path.into_iter().rev() {
             let pose = parts[nth].attachment.as_ref().and_then(|attachment| {
-                let Attachment { parent, on_parent, on_child, kind } = attachment;
+                let Attachment { parent, on_parent, on_child, kind, .. } = attachment;
                 Some(poses[*parent]?.child([*on_parent, *on_child], kind))
             });
             poses[nth] = Some(pose.unwrap_or(root));

@@ -22,9 +22,7 @@ impl Model {
         let bodies = self.bodies.iter().map(|body| body_speed(case, body));
         let joints = self.joints.iter().map(|joint| {
             let Some(stroke) = joint.kind.stroke() else { return self.slider_speed(joint) };
-            let period = stroke.period().unwrap_or(1.0);
-            let time = |n: u32| period * (f64::from(n) + 0.5) / f64::from(TIMES);
-            let rate = (0..TIMES).map(|n| stroke.at(time(n))[1].abs()).fold(0.0, f64::max);
+            let rate = top_rate(stroke);
             let child = self.body_index(&joint.child).map(|child| &self.bodies[child]);
             match joint.kind {
                 JointKind::Arm { .. } => rate,
@@ -105,6 +103,16 @@ impl Model {
             ContactSpec::Quadratic { range, .. } => range * range / (4.0 * force),
         })
     }
+}
+
+/// The largest rate of a stroke (1/s); 0 of what may be asked for without limits.
+fn top_rate(stroke: &Stroke) -> f64 {
+    if let Some(command) = stroke.command() {
+        return Some(command.largest_rate()).filter(|rate| rate.is_finite()).unwrap_or(0.0);
+    }
+    let period = stroke.period().unwrap_or(1.0);
+    let time = |n: u32| period * (f64::from(n) + 0.5) / f64::from(TIMES);
+    (0..TIMES).map(|n| stroke.at(time(n))[1].abs()).fold(0.0, f64::max)
 }
 
 /// The largest strength that a field may have in time at a place (T), by the sum of those of its parts.

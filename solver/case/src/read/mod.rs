@@ -10,6 +10,7 @@ pub(crate) mod case_text;
 pub mod library;
 pub(crate) mod problem_keys;
 mod read_mesh;
+pub(crate) mod recording;
 mod reference_rows;
 mod reference_table;
 pub(crate) mod schema;

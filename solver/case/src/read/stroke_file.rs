@@ -11,7 +11,7 @@ use crate::text::tree::{TomlNode, TomlValue, TreeError};
 use crate::text::type_error::{KNOTS_OF_A_FILE, TypeError, suggestion};
 
 /// Tables of a case with strokes in them.
-const TABLES: [&str; 3] = ["joint", "swimmer", "field"];
+const TABLES: [&str; 4] = ["body", "joint", "swimmer", "field"];
 
 /// What is asked of the times of a file.
 const TIMES: &str = "times must rise from row to row, the first at 0 or before, the last at the end \

@@ -6,6 +6,7 @@
 
 mod angles;
 mod body;
+mod command;
 mod contact;
 mod declared;
 mod drive;

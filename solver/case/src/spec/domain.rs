@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::command::Command;
 use super::mesh_file::MeshFile;
 #[cfg(test)]
 use crate::spec::number::{NonZero, PerDimension, Positive};
@@ -145,6 +146,8 @@ pub enum TimeFunction {
     },
     /// Straight lines between (time, value) knots, constant outside them.
     Table(Vec<[f64; 2]>),
+    /// What a session or a recording asks for while the run goes on.
+    Command(Command),
 }
 
 fn one() -> f64 {

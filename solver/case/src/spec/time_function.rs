@@ -18,6 +18,7 @@ impl TimeFunction {
                 mean + amplitude * (TAU * (time / period + phase)).sin()
             }
             Self::Table(knots) => table_at(knots, time),
+            Self::Command(command) => command.at(time)[0],
         }
     }
 
@@ -42,6 +43,8 @@ impl TimeFunction {
                 let before = low * time.min(*first).max(0.0);
                 before + pieces.sum::<f64>() + high * (time - last.max(0.0)).max(0.0)
             }
+            // What will be asked for is not known: as if nothing were
+            Self::Command(command) => command.start * time,
         }
     }
 
@@ -56,6 +59,10 @@ impl TimeFunction {
             Self::Table(knots) => {
                 let values = knots.iter().map(|[_, value]| value.abs());
                 end * values.max_by(f64::total_cmp).unwrap_or(1.0)
+            }
+            Self::Command(command) => {
+                let [least, most] = command.range();
+                end * least.abs().max(most.abs())
             }
         }
     }

@@ -9,7 +9,7 @@ use super::type_error::{Mismatch, TypeError};
 pub const ANGULAR: &str = "Angular";
 
 /// Keys of a function of time that are no values of it.
-const NO_ANGLES: [&str; 4] = ["period", "phase", "ramp", "duration"];
+const NO_ANGLES: [&str; 5] = ["period", "phase", "ramp", "duration", "filter"];
 
 /// An angle, or what has angles as its values (rad).
 ///

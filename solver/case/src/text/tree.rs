@@ -14,7 +14,7 @@ use super::toml_help::toml_help;
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 21] = [
+pub const CHOICES: [&str; 23] = [
     "kind",
     "length",
     "angle",
@@ -32,6 +32,8 @@ pub const CHOICES: [&str; 21] = [
     "factor",
     "load_factor",
     "turn",
+    "beat",
+    "bend",
     "fields",
     "series",
     "until",

@@ -21,7 +21,9 @@ mod tests;
 pub use deformed_outline::{DeformedOutline, MaterialPoint, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;
 pub use flexible::FlexibleShape;
-pub use midline::{AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline};
+pub use midline::{
+    AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Open,
+};
 pub use pulse::{Pulse, PulseLaw};
 pub use recoil::RecoilMotion;
 pub use sheet::WavingSheet;

@@ -8,9 +8,9 @@ use super::deformed_outline::{DeformedOutline, RecoilCorrection, ShapeMotion};
 use super::error::GaitError;
 use super::grid::Grid;
 use super::hull::{Closed, Hull};
-use super::midline::{Carangiform, Frame, Midline};
+use super::midline::{Carangiform, Frame, Midline, Open};
 use super::momentum::Interior;
-use super::recoil::{Recoil, RecoilAngle, RecoilMotion};
+use super::recoil::{OpenAngle, Recoil, RecoilAngle, RecoilMotion};
 
 /// Largest speed of the correction of the area, over the mean normal speed of a cycle.
 const LARGEST_CORRECTION: f64 = 1e-3;
@@ -28,6 +28,8 @@ pub struct SlenderBody {
     midline: Midline,
     hull: Hull,
     recoil_angle: RecoilAngle,
+    /// In its place where later parts of the gait may not be known.
+    open: Option<(Open, OpenAngle)>,
 }
 
 impl SlenderBody {
@@ -64,11 +66,16 @@ impl SlenderBody {
         }
         let [transient, period] = midline.cycle();
         let grid = Grid::new(profile, &midline.discontinuities());
+        let open = midline.open();
         let body = Self {
             hull: Hull::new(profile, &grid, height)?,
             grid,
             midline,
             recoil_angle: RecoilAngle::new(transient, period),
+            open: open.map(|open| {
+                let angle = OpenAngle::new(open.longest);
+                (open, angle)
+            }),
         };
         body.validate()?;
         Ok(body)
@@ -153,7 +160,11 @@ impl SlenderBody {
     /// # Errors
     /// [`GaitError::Midline`] when the midline cannot follow the gait up to this time (s).
     pub fn recoil_angle(&self, time: f64) -> Result<f64, GaitError> {
-        self.recoil_angle.at(time, |time| recoil_rate(&self.interior(time), time))
+        let rate = |time| recoil_rate(&self.interior(time), time);
+        match &self.open {
+            None => self.recoil_angle.at(time, rate),
+            Some((open, angle)) => angle.at(time, open.kinks(), rate),
+        }
     }
 
     fn interior(&self, time: f64) -> Interior {
@@ -189,6 +200,9 @@ impl ShapeMotion for SlenderBody {
     }
 
     fn recoil(&self) -> Result<RecoilMotion, GaitError> {
+        if self.open.is_some() {
+            return Ok(RecoilMotion::default());
+        }
         let ([start, duration], [_, period]) = (self.midline.span(), self.midline.cycle());
         let n_periods = whole((duration / period).ceil()).clamp(1, MOST_PERIODS);
         RecoilMotion::over(start, duration, n_periods, |time| self.recoil_at(time))

@@ -1,6 +1,7 @@
 //! Deforming outlines against finite differences, published numbers and other quadratures.
 
 mod momentum;
+mod open;
 mod pulse;
 mod space;
 
@@ -40,7 +41,15 @@ fn carangiform() -> Midline {
     let curvature = points.into_iter().zip(curvatures).map(|(s, k)| [s, k]).collect();
     Midline::Carangiform(Carangiform {
         length: 1.0,
-        gait: CarangiformGait { curvature, bending: 0.0, period: 1.0, phase: 0.0, ramp: None },
+        gait: CarangiformGait {
+            curvature,
+            bending: 0.0,
+            period: 1.0,
+            phase: 0.0,
+            ramp: None,
+            beat: None,
+            bend: None,
+        },
     })
 }
 

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::excess::Excess;
 use super::resume::ResumeError;
-use crate::case::rounded;
+use crate::case::{CommandError, rounded};
 use crate::contact::ContactError;
 use crate::coupling::{ShapeError, coordinates};
 use crate::motion::{MotionError, RemeshError};
@@ -120,6 +120,23 @@ pub enum RunError {
     /// A run cannot resume from a state.
     #[error("cannot resume from this state: {0}")]
     Resume(#[from] ResumeError),
+    /// Something cannot be asked for.
+    #[error(transparent)]
+    Command(#[from] CommandError),
+    /// Nobody asks for what it waits for.
+    #[error(
+        "the case waits for commands ({}), and nobody gives them: repeat a session with --replay commands.csv, \
+         open one from Python with alewife.session(case), or write numbers, sines or a table in place of \
+         `command`",
+        .commands.join(", ")
+    )]
+    Waits {
+        /// Names of the commands.
+        commands: Vec<String>,
+    },
+    /// A session cannot do what it is asked to.
+    #[error("{0}")]
+    Session(String),
     /// An observer could not write.
     #[error("output: {0}")]
     Output(#[from] std::io::Error),

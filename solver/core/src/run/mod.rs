@@ -1,5 +1,6 @@
 //! From a case to a run: build, begin, make steps of a controlled size, measure, and let observers look on.
 
+mod act;
 mod build;
 mod case_mesh;
 mod control;
@@ -13,7 +14,9 @@ mod reports;
 mod resume;
 #[expect(clippy::module_inception, reason = "the run itself is what the room is named after")]
 mod run;
+mod run_case;
 mod series;
+mod session;
 mod simulation;
 mod snapshot;
 mod solve;
@@ -31,9 +34,11 @@ pub use prepare::{simulation_on, simulation_with};
 pub use reports::{CycleReport, StepErrorReport};
 pub use resume::{Reference, ResumeError, SavedState, VERSION as STATE_VERSION};
 pub use run::RunSummary;
+pub use run_case::Start;
 pub use series::Series;
+pub use session::{Fields, Observers, Session};
 pub use simulation::{Attempt, Simulation, StepScheme};
-pub use snapshot::{BodyReport, LastState, Observer, Snapshot};
-pub use solve::{Solve, simulate, simulate_from};
+pub use snapshot::{BodyReport, LastState, Observer, Recorded, Snapshot};
+pub use solve::{Solve, replay, simulate, simulate_from};
 pub use step_control::{Piece, StepControl};
 pub use timed_step::{Effort, TimedStep};

@@ -89,6 +89,10 @@ fn log_recoils<const D: usize>(problem: &Problem<D>) -> Result<(), RunError> {
         };
         let motion =
             shape.recoil().map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+        // Of what is asked for while the run goes on it is not known before
+        if motion.duration == 0.0 {
+            continue;
+        }
         tracing::info!(
             body = body.name,
             translation = motion.translation,

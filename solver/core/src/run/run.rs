@@ -2,21 +2,17 @@
 
 use std::sync::Arc;
 
-use alewife_mesh::interrupt::{self, Heard};
-
-use super::case_mesh::{CaseMesh, Dimension};
 use super::measure::Measure;
-use super::prepare::{Prepared, prepare};
 use super::reports::{CycleReport, LoadErrors, StepErrorReport};
-use super::resume::SavedState;
+use super::resume::{ResumeError, SavedState};
 use super::simulation::{CellCrossing, Simulation};
 use super::snapshot::{LastState, Observer, Snapshot};
 use super::watch::{ForceAgreement, Pace, SoundState};
 use super::{RunError, Series};
-use crate::case::{Case, Model, Steady, TimeSettings, Unsteady};
+use crate::case::{Case, Model, Recording, Steady, TimeSettings, Unsteady};
 use crate::coupling::SurfaceLoads;
 use crate::state::InitialLevels;
-use crate::step::{FlowError, StopRequest};
+use crate::step::FlowError;
 use crate::timing::{Stage, Timing};
 
 /// What a finished run leaves in memory.
@@ -36,95 +32,25 @@ pub struct RunSummary {
     pub step_errors: Option<StepErrorReport>,
 }
 
-/// Runs a case to its end, from a saved state if there is one.
-///
-/// # Errors
-/// Whatever stops the run; observers are notified before it is returned.
-pub(super) fn run_case<const D: usize>(
-    model: &Model,
-    saved: Option<&SavedState<D>>,
-    observers: &mut [Box<dyn Observer<D>>],
-) -> Result<RunSummary, RunError>
-where
-    Dimension<D>: CaseMesh<D>,
-{
-    let requests: Vec<StopRequest> =
-        observers.iter().filter_map(|observer| observer.stop_request()).collect();
-    let stop: StopRequest = Arc::new(move || requests.iter().any(|request| request()));
-    let (step, time) = saved.map_or((0, 0.0), |saved| (saved.step(), saved.time()));
-    let prepared = interrupt::hearing(Arc::clone(&stop), || prepare(model, saved));
-    let Prepared { mut simulation, measure } = match meshed(prepared, step, time) {
-        Ok(prepared) => prepared,
-        Err(error) => {
-            notify_all(observers, &error, None);
-            return Err(error);
-        }
-    };
-    let mut series = Series { names: measure.names().to_vec(), ..Series::default() };
-    if let Some(saved) = saved {
-        let earlier = saved.series();
-        if earlier.names == series.names {
-            series = earlier;
-        } else {
-            tracing::warn!("other quantities than before: statistics begin where the run resumes");
-        }
-    }
-    simulation.stop = Some(Arc::clone(&stop));
-    let case = &model.case;
-    let mut load_errors = LoadErrors::new(&simulation, &series.names);
-    load_errors.resume(&series);
-    let mut run = Run {
-        case,
-        observers,
-        series,
-        simulation,
-        measure,
-        warned: Warned::default(),
-        pace: Pace::default(),
-        sound: None,
-        load_errors,
-        forces: Vec::new(),
-        cycles: Vec::new(),
-    };
-    let made = interrupt::hearing(Arc::clone(&stop), || run.make(saved.is_some()));
-    let result = meshed(made, run.simulation.state.step, run.simulation.state.time);
-    if let Err(error) = &result {
-        run.notify_of_failure(error);
-    }
-    let steps = result?;
-    run.warn_at_end();
-    let timing = *run.simulation.timing();
-    if let Err(error) = run.observers.iter_mut().try_for_each(|observer| observer.on_end(&timing)) {
-        let error = RunError::from(error);
-        run.notify_of_failure(&error);
-        return Err(error);
-    }
-    let step_errors = run.step_errors();
-    let Run { simulation: Simulation { work, .. }, series, cycles, .. } = run;
-    let n_dofs = work.system.n_unknowns;
-    Ok(RunSummary { series, timing: work.timing, n_dofs, steps, cycles, step_errors })
-}
-
-/// What work came to in which meshing hears a request to stop; where it was ended, the run is stopped at a step and
-/// its time (s).
-fn meshed<R>(heard: Heard<Result<R, RunError>>, step: usize, time: f64) -> Result<R, RunError> {
-    match heard.result {
-        Err(_) if heard.was_ended => Err(FlowError::Stopped { step, time }.into()),
-        result => result,
-    }
-}
-
 /// A run under way.
 pub(super) struct Run<'a, const D: usize> {
-    case: &'a Case,
-    observers: &'a mut [Box<dyn Observer<D>>],
-    series: Series,
+    /// What is run, with commands of its own.
+    pub model: Arc<Model>,
+    /// All who look on.
+    pub observers: Vec<Box<dyn Observer<D> + 'a>>,
+    /// All quantities of all steps so far.
+    pub series: Series,
+    /// What was asked for so far, and where it paused.
+    pub recording: Recording,
+    /// Whether it has come to its end.
+    pub is_over: bool,
     pub simulation: Simulation<D>,
-    measure: Measure<D>,
+    /// What is measured.
+    pub measure: Measure<D>,
     /// How fast its flow is.
     pub pace: Pace,
     /// Errors of the forces on bodies.
-    load_errors: LoadErrors,
+    pub load_errors: LoadErrors,
     /// How well two evaluations of the forces on bodies agree.
     pub forces: Vec<ForceAgreement>,
     /// The last state kept in which the flow was sound.
@@ -132,7 +58,7 @@ pub(super) struct Run<'a, const D: usize> {
     /// What it has warned of.
     pub warned: Warned,
     /// First cycles that ended.
-    cycles: Vec<CycleReport>,
+    pub cycles: Vec<CycleReport>,
 }
 
 /// How near bodies have come without contact.
@@ -180,31 +106,20 @@ pub(super) struct StepSummary {
 }
 
 impl<const D: usize> Run<'_, D> {
-    /// What is run.
-    pub(super) fn case(&self) -> &Case {
-        self.case
+    /// All that evolves, as it is written.
+    pub(super) fn saved(&self) -> Result<SavedState<D>, ResumeError> {
+        let Self { simulation, series, recording, .. } = self;
+        SavedState::of(self.case(), simulation, series, recording)
     }
 
-    /// Makes the run; the number of its steps.
-    fn make(&mut self, is_resumed: bool) -> Result<usize, RunError> {
-        let case = self.case;
-        match &case.time {
-            TimeSettings::Steady(settings) => self.steady(settings),
-            TimeSettings::Unsteady(settings) => {
-                if !is_resumed {
-                    self.begin(settings)?;
-                }
-                match &settings.adaptive {
-                    None => self.fixed_steps(settings),
-                    Some(adaptive) => self.adaptive_steps(settings, adaptive),
-                }
-            }
-        }
+    /// What is run.
+    pub(super) fn case(&self) -> &Case {
+        &self.model.case
     }
 
     /// What the steps so far leave; none of a steady solution.
-    fn step_errors(&self) -> Option<StepErrorReport> {
-        let TimeSettings::Unsteady(_) = &self.case.time else { return None };
+    pub(super) fn step_errors(&self) -> Option<StepErrorReport> {
+        let TimeSettings::Unsteady(_) = &self.model.case.time else { return None };
         let errors = &self.simulation.state.step_errors;
         Some(StepErrorReport {
             velocity: errors.of_flow(),
@@ -214,9 +129,9 @@ impl<const D: usize> Run<'_, D> {
     }
 
     /// Warns of steps and cells that are too large for what was found.
-    fn warn_at_end(&self) {
+    pub(super) fn warn_at_end(&self) {
         if let (TimeSettings::Unsteady(settings), Some(errors)) =
-            (&self.case.time, self.step_errors())
+            (&self.model.case.time, self.step_errors())
             && settings.adaptive.is_none()
         {
             errors.log(settings, self.simulation.longest_step_of_vortices());
@@ -225,9 +140,9 @@ impl<const D: usize> Run<'_, D> {
     }
 
     /// Tells the observers why the run ends, with what can be saved of it.
-    fn notify_of_failure(&mut self, error: &RunError) {
+    pub(super) fn notify_of_failure(&mut self, error: &RunError) {
         let Simulation { state, .. } = &self.simulation;
-        let saved = match self.case.time {
+        let saved = match self.model.case.time {
             TimeSettings::Steady(_) => None,
             // Before the flow at the start is known there is nothing to resume from
             TimeSettings::Unsteady(_) if self.series.times.is_empty() => None,
@@ -236,8 +151,7 @@ impl<const D: usize> Run<'_, D> {
                 self.sound.take().map(|sound| sound.saved(&self.series))
             }
             TimeSettings::Unsteady(_) => {
-                let saved = SavedState::of(self.case, &self.simulation, &self.series);
-                saved.inspect_err(|error| tracing::error!(%error, "no state is left")).ok()
+                self.saved().inspect_err(|error| tracing::error!(%error, "no state is left")).ok()
             }
         };
         let last = LastState {
@@ -247,14 +161,14 @@ impl<const D: usize> Run<'_, D> {
             velocity: &state.now.velocity,
             pressure: &state.now.pressure,
         };
-        notify_all(self.observers, error, Some(&last));
+        notify_all(&mut self.observers, error, Some(&last));
     }
 }
 
 /// Tells all observers why a run ends; where one cannot write of it, the first error stays the one
 /// that is returned.
-fn notify_all<const D: usize>(
-    observers: &mut [Box<dyn Observer<D>>],
+pub(super) fn notify_all<'a, const D: usize>(
+    observers: &mut [Box<dyn Observer<D> + 'a>],
     error: &RunError,
     last: Option<&LastState<'_, D>>,
 ) {
@@ -266,7 +180,7 @@ fn notify_all<const D: usize>(
 }
 
 impl<const D: usize> Run<'_, D> {
-    fn steady(&mut self, settings: &Steady) -> Result<usize, RunError> {
+    pub(super) fn steady(&mut self, settings: &Steady) -> Result<(), RunError> {
         let simulation = &mut self.simulation;
         let has_convection = simulation.problem.has_convection;
         let equations = simulation.steady_equations();
@@ -275,12 +189,11 @@ impl<const D: usize> Run<'_, D> {
         let loads = simulation.loads(&flow.residual);
         let iterations = flow.iterations;
         let summary = StepSummary { iterations, is_last: true, ..StepSummary::default() };
-        self.report(&loads, summary)?;
-        Ok(0)
+        self.report(&loads, summary)
     }
 
     /// The flow an unsteady run starts from.
-    fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
+    pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
         let start = self.simulation.begin(settings)?;
         self.report(&start.loads, StepSummary::default())
     }
@@ -303,12 +216,14 @@ impl<const D: usize> Run<'_, D> {
         self.simulation.record_propulsion(&loads.bodies);
         self.simulation.work.system.mark_solver();
         let ended = self.simulation.first_cycles_that_end();
-        if matches!(&self.case.time, TimeSettings::Unsteady(time) if time.adaptive.is_none()) {
+        if matches!(&self.model.case.time, TimeSettings::Unsteady(time) if time.adaptive.is_none())
+        {
             ended.iter().for_each(|cycle| cycle.log(self.simulation.scheme.method));
         }
         self.cycles.extend(ended);
         let step_errors = self.step_errors();
-        let Self { case, observers, series, simulation, measure, .. } = self;
+        let Self { model, observers, series, simulation, measure, .. } = self;
+        let case = &model.case;
         let measured = measure.measure(case, simulation, loads, summary.crossing)?;
         let Simulation { state, work, .. } = simulation;
         series.times.push(state.time);
@@ -338,6 +253,7 @@ impl<const D: usize> Run<'_, D> {
             observers.iter_mut().filter_map(|one| one.wants_state(&snapshot).then_some(()));
         let is_wanted = wanted.count() > 0;
         series.rows.push(measured.values);
+        self.is_over = summary.is_last;
         self.load_errors.add(&self.series);
         self.compare_forces(&measured.bodies);
         self.check_soundness(&measured.flow)?;
@@ -357,13 +273,12 @@ impl<const D: usize> Run<'_, D> {
 
     /// Gives the observers the whole state.
     fn show_state(&mut self) -> Result<(), RunError> {
-        let Self { case, observers, series, simulation, .. } = self;
-        let mut timing = simulation.work.timing;
+        let mut timing = self.simulation.work.timing;
         let shown = timing.measure(Stage::Output, || -> Result<(), RunError> {
-            let state = Arc::new(SavedState::of(case, simulation, series)?);
-            Ok(observers.iter_mut().try_for_each(|observer| observer.on_state(&state))?)
+            let state = Arc::new(self.saved()?);
+            Ok(self.observers.iter_mut().try_for_each(|observer| observer.on_state(&state))?)
         });
-        simulation.work.timing = timing;
+        self.simulation.work.timing = timing;
         shown
     }
 }

@@ -6,7 +6,7 @@ use alewife_mesh::{Mesh, Point};
 
 use super::{RunError, SavedState, StepErrorReport};
 use crate::body::{Pose, Twist, Wrench};
-use crate::case::Case;
+use crate::case::{Asked, Case, Recording};
 use crate::gait::RecoilCorrection;
 use crate::step::StopRequest;
 use crate::timing::Timing;
@@ -85,6 +85,17 @@ pub struct LastState<'a, const D: usize> {
     pub saved: Option<&'a SavedState<D>>,
 }
 
+/// What is recorded of a session.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Recorded<'a> {
+    /// All that was recorded before, once at its beginning.
+    Before(&'a Recording),
+    /// Something is asked for.
+    Asked(&'a Asked),
+    /// It pauses at a time (s).
+    Pause(f64),
+}
+
 /// Sees everything, changes nothing.
 pub trait Observer<const D: usize> {
     /// Called once for the initial state and once for each accepted step.
@@ -111,6 +122,14 @@ pub trait Observer<const D: usize> {
         None
     }
 
+    /// Called with all that is recorded of a session, or of a run that repeats one; not of other runs.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    fn on_recorded(&mut self, _recorded: Recorded<'_>) -> std::io::Result<()> {
+        Ok(())
+    }
+
     /// Called once after the last step of a run that reached its end, with all its time.
     ///
     /// # Errors
@@ -130,5 +149,42 @@ pub trait Observer<const D: usize> {
         _last: Option<&LastState<'_, D>>,
     ) -> std::io::Result<()> {
         Ok(())
+    }
+}
+
+/// An observer that somebody else owns.
+pub(super) struct Borrowed<'a, const D: usize>(pub &'a mut dyn Observer<D>);
+
+impl<const D: usize> Observer<D> for Borrowed<'_, D> {
+    fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> std::io::Result<()> {
+        self.0.on_step(snapshot)
+    }
+
+    fn wants_state(&mut self, snapshot: &Snapshot<'_, D>) -> bool {
+        self.0.wants_state(snapshot)
+    }
+
+    fn on_state(&mut self, state: &Arc<SavedState<D>>) -> std::io::Result<()> {
+        self.0.on_state(state)
+    }
+
+    fn stop_request(&self) -> Option<StopRequest> {
+        self.0.stop_request()
+    }
+
+    fn on_recorded(&mut self, recorded: Recorded<'_>) -> std::io::Result<()> {
+        self.0.on_recorded(recorded)
+    }
+
+    fn on_end(&mut self, timing: &Timing) -> std::io::Result<()> {
+        self.0.on_end(timing)
+    }
+
+    fn on_failure(
+        &mut self,
+        error: &RunError,
+        last: Option<&LastState<'_, D>>,
+    ) -> std::io::Result<()> {
+        self.0.on_failure(error, last)
     }
 }

@@ -8,7 +8,8 @@ use nalgebra::Vector3;
 
 use super::case_mesh::{CaseMesh, Dimension};
 use super::resume::SavedState;
-use super::run::run_case;
+use super::run_case::{Start, run_case};
+use super::session::{Observers, Session};
 use super::timed_step::{TimedStep, time_step};
 use super::{Observer, RunError, RunSummary};
 use crate::case::Model;
@@ -22,9 +23,25 @@ pub trait Solve<const D: usize>: CaseMesh<D> {
     /// Whatever stops the run; observers are notified before it is returned.
     fn simulate(
         model: &Model,
-        saved: Option<&SavedState<D>>,
+        start: Start<'_, D>,
         observers: &mut [Box<dyn Observer<D>>],
     ) -> Result<RunSummary, RunError>;
+
+    /// Opens a session.
+    ///
+    /// # Errors
+    /// As [`Session::open`].
+    fn open(
+        model: &Model,
+        saved: Option<&SavedState<D>>,
+        observers: Observers<D>,
+    ) -> Result<Session<D>, RunError>;
+
+    /// Makes the steps of a session up to a time (s).
+    ///
+    /// # Errors
+    /// As [`Session::advance_to`].
+    fn advance(session: &mut Session<D>, until: f64) -> Result<(), RunError>;
 
     /// How good a mesh is.
     fn quality(mesh: &Mesh<D>) -> Quality<D>;
@@ -47,10 +64,22 @@ macro_rules! solve_in {
         impl Solve<$dimension> for Dimension<$dimension> {
             fn simulate(
                 model: &Model,
-                saved: Option<&SavedState<$dimension>>,
+                start: Start<'_, $dimension>,
                 observers: &mut [Box<dyn Observer<$dimension>>],
             ) -> Result<RunSummary, RunError> {
-                run_case(model, saved, observers)
+                run_case(model, start, observers)
+            }
+
+            fn open(
+                model: &Model,
+                saved: Option<&SavedState<$dimension>>,
+                observers: Observers<$dimension>,
+            ) -> Result<Session<$dimension>, RunError> {
+                Session::begin(model, saved, observers)
+            }
+
+            fn advance(session: &mut Session<$dimension>, until: f64) -> Result<(), RunError> {
+                session.make_steps(until)
             }
 
             fn quality(mesh: &Mesh<$dimension>) -> Quality<$dimension> {
@@ -92,7 +121,7 @@ pub fn simulate<const D: usize>(
 where
     Dimension<D>: Solve<D>,
 {
-    Dimension::<D>::simulate(model, None, observers)
+    Dimension::<D>::simulate(model, Start::default(), observers)
 }
 
 /// Runs a case to its end, from a saved state if there is one.
@@ -107,5 +136,20 @@ pub fn simulate_from<const D: usize>(
 where
     Dimension<D>: Solve<D>,
 {
-    Dimension::<D>::simulate(model, saved, observers)
+    Dimension::<D>::simulate(model, Start { saved, ..Start::default() }, observers)
+}
+
+/// Runs a case to its end while what is recorded is asked for, from a saved state if there is one.
+///
+/// # Errors
+/// Whatever stops the run; observers are notified before it is returned.
+pub fn replay<const D: usize>(
+    model: &Model,
+    start: Start<'_, D>,
+    observers: &mut [Box<dyn Observer<D>>],
+) -> Result<RunSummary, RunError>
+where
+    Dimension<D>: Solve<D>,
+{
+    Dimension::<D>::simulate(model, start, observers)
 }

@@ -11,7 +11,7 @@ use super::resume::SavedState;
 use super::series::Series;
 use super::simulation::Simulation;
 use super::start::check_memory;
-use crate::case::{Model, Scheme, TimeSettings, Unsteady};
+use crate::case::{Model, Recording, Scheme, TimeSettings, Unsteady};
 use crate::state::InitialLevels;
 use crate::step::StepError;
 use crate::timing::cpu_seconds;
@@ -76,7 +76,8 @@ where
         TimeSettings::Steady(_) => (None, None),
         TimeSettings::Unsteady(settings) => {
             let step = one_of_many(&mut simulation, settings);
-            (Some(step), Some(SavedState::of(&model.case, &simulation, &Series::default())?))
+            let none = (&Series::default(), &Recording::default());
+            (Some(step), Some(SavedState::of(&model.case, &simulation, none.0, none.1)?))
         }
     };
     let Simulation { state, work, .. } = simulation;

@@ -45,6 +45,9 @@ pub struct Options {
     /// or one of its checkpoints/*.state or failure/last.state
     #[arg(long, value_name = "STATE")]
     resume: Option<PathBuf>,
+    /// Ask for what was asked for in a session: its commands.csv. Needed for a case with a `command`
+    #[arg(long, value_name = "CSV", value_hint = ValueHint::FilePath)]
+    replay: Option<PathBuf>,
     /// Continue a finished run, too, where the case ends later now; it is done where it does not. Given by
     /// itself to a job that its batch system has started again
     #[arg(long = "continue")]
@@ -88,6 +91,7 @@ impl Options {
         RunPlan {
             threads: self.threads,
             resume: self.resume.clone(),
+            replay: self.replay.clone(),
             continues: self.continues,
             overwrite: self.overwrite,
             max_walltime: self.max_walltime,
@@ -108,6 +112,7 @@ impl Options {
         };
         self.settings.set.iter().for_each(|setting| option("set", Some(setting.clone())));
         option("out", self.out.as_ref().map(|out| out.display().to_string()));
+        option("replay", self.replay.as_ref().map(|file| file.display().to_string()));
         option("threads", self.threads.map(|threads| threads.to_string()));
         option("max-walltime", self.max_walltime.map(String::from));
         option("live", self.live.clone());

@@ -28,7 +28,7 @@ const MOST_BYTES: usize = 1 << 40;
 ///
 /// # Errors
 /// When the file system refuses.
-pub(super) fn write_state<const D: usize>(path: &Path, state: &SavedState<D>) -> io::Result<usize> {
+pub fn write_state<const D: usize>(path: &Path, state: &SavedState<D>) -> io::Result<usize> {
     let bytes = content(state)?;
     write_atomic(path, &bytes)?;
     Ok(bytes.len())

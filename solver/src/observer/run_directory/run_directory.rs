@@ -18,7 +18,7 @@ use crate::observer::system::{
 };
 
 /// Files of a run. Only these, and those of its folders, are ever removed.
-const FILES: [&str; 13] = [
+const FILES: [&str; 14] = [
     "case.toml",
     MESH_FILE,
     bodies::FILE,
@@ -26,6 +26,7 @@ const FILES: [&str; 13] = [
     "status.json",
     "log.jsonl",
     "series.csv",
+    "commands.csv",
     "run.mcap",
     "fields.pvd",
     COMPARISON_FILE,

@@ -2,11 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use super::joints::stroke;
+use super::skin::has_rate;
 use crate::rules::Findings;
 use crate::rules::flow::boundary::check_factor;
 use crate::{
     AnguilliformGait, Body, CarangiformGait, FlagellumGait, GaitSpec, PulsatingGait, ShapeSpec,
-    SquirmerGait, TimeSettings,
+    SquirmerGait, Stroke, TimeSettings,
 };
 
 /// Lengths of a fish or a flagellate.
@@ -86,6 +88,8 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
 }
 
 fn carangiform(findings: &mut Findings<'_>, key: &str, gait: &CarangiformGait) {
+    stroke_of_midline(findings, key, "beat", gait.beat.as_ref());
+    stroke_of_midline(findings, key, "bend", gait.bend.as_ref());
     let positions: Vec<f64> = gait.curvature.iter().map(|row| row[0]).collect();
     let does_rise = positions.windows(2).all(|pair| pair[1] > pair[0]);
     if positions.len() < 2
@@ -99,6 +103,14 @@ fn carangiform(findings: &mut Findings<'_>, key: &str, gait: &CarangiformGait) {
             "write [[0.0, K L], ..., [1.0, K L]] with rising positions, or leave it out",
         );
     }
+}
+
+/// A stroke of a midline has numbers that make one, and a rate that does not jump.
+fn stroke_of_midline(findings: &mut Findings<'_>, key: &str, name: &str, given: Option<&Stroke>) {
+    let Some(given) = given else { return };
+    let key = format!("{key}.{name}");
+    stroke(findings, &key, given);
+    has_rate(findings, &key, given);
 }
 
 fn anguilliform(findings: &mut Findings<'_>, key: &str, gait: &AnguilliformGait) {

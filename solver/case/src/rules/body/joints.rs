@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::joints_in_space::{direction, place_of_child};
 use crate::rules::Findings;
+use crate::rules::command::check_command;
 use crate::spec::body::joint::{PlanarPose, child_pose};
 use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Slider, Stroke, TimeSettings};
 
@@ -271,6 +272,7 @@ pub(crate) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
             }
         }
         Stroke::Cubic(knots) => cubic(findings, &format!("{key}.cubic"), knots),
+        Stroke::Command(command) => check_command(findings, &format!("{key}.command"), command),
     }
 }
 

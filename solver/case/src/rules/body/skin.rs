@@ -33,7 +33,9 @@ pub fn check(findings: &mut Findings<'_>, chain: &Chain<'_>) {
                 format!("joint {} is a hinge, but a skin bends by given angles only", nth + 1),
                 "write bent = { angle = ... }, or leave `skin` out",
             ),
-            Pivot::Bent { angle } => has_rate(findings, &format!("{key}.joints.{nth}"), angle),
+            Pivot::Bent { angle } => {
+                has_rate(findings, &format!("{key}.joints.{nth}.bent.angle"), angle);
+            }
         }
     }
     one_period(findings, chain);
@@ -57,14 +59,14 @@ pub fn check(findings: &mut Findings<'_>, chain: &Chain<'_>) {
 }
 
 /// Angles whose rate jumps would need an infinite force of a skin with mass.
-fn has_rate(findings: &mut Findings<'_>, key: &str, angle: &Stroke) {
+pub(super) fn has_rate(findings: &mut Findings<'_>, key: &str, angle: &Stroke) {
     let name = match angle {
         Stroke::Table(_) => "a `table`",
         Stroke::Legs { smooth: false, .. } => "`legs` of straight lines",
         _ => return,
     };
     findings.error(
-        &format!("{key}.bent.angle"),
+        key,
         format!("the rate of {name} jumps, which the gait of a deforming body may not"),
         "write a `sine`, a `file`, or `legs` with smooth = true",
     );

@@ -88,7 +88,10 @@ fn gait_drives(body: &Body) -> bool {
                 .any(|(mode, factor)| *mode != 0.0 && acts(factor.as_ref()))
         }
         Some(GaitSpec::Carangiform(gait)) => {
-            gait.bending != 0.0 || gait.curvature.iter().any(|pair| pair[1] != 0.0)
+            let strokes = [&gait.beat, &gait.bend];
+            strokes.into_iter().flatten().any(moves)
+                || gait.bending != 0.0
+                || gait.curvature.iter().any(|pair| pair[1] != 0.0)
         }
         Some(GaitSpec::Anguilliform(gait)) => gait.amplitude != 0.0,
         Some(GaitSpec::Flagellum(gait)) => gait.amplitude != 0.0,

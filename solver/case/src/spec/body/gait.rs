@@ -67,7 +67,7 @@ pub struct FlagellateShape {
     pub fillet: Option<f64>,
 }
 
-/// `gait.carangiform`: a wave of curvature K(s) (sin(2 pi (t/T + phase - s/L)) + bending).
+/// `gait.carangiform`: a wave of curvature K(s) (beat sin(2 pi (t/T + phase - s/L)) + bending + bend).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -81,6 +81,12 @@ pub struct CarangiformGait {
     /// Constant part of the bracket: steers.
     #[serde(default)]
     pub bending: f64,
+    /// Factor of the wave in time; 1 if absent. Its rate must not jump.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beat: Option<Stroke>,
+    /// What is added to the bracket in time, without the ramp: steers. Its rate must not jump; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bend: Option<Stroke>,
     /// Duration of the ramp at the start (s); a period if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]

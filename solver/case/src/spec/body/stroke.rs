@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::iter::successors;
 
+use crate::spec::command::Command;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, Positive};
 use serde::{Deserialize, Serialize};
@@ -59,6 +60,8 @@ pub enum Stroke {
     /// Cubic polynomials between (time, value, rate) knots, which cover the run; what the columns of
     /// a file become.
     Cubic(Vec<[f64; 3]>),
+    /// What a session or a recording asks for while the run goes on.
+    Command(Command),
 }
 
 impl Stroke {
@@ -110,6 +113,7 @@ impl Stroke {
                     _ => [0.0, 0.0],
                 }
             }
+            Self::Command(command) => command.at(time),
         }
     }
 
@@ -133,7 +137,17 @@ impl Stroke {
             | Self::Steady { .. }
             | Self::Sine { .. }
             | Self::Legs { .. }
-            | Self::Cubic(_) => Vec::new(),
+            | Self::Cubic(_)
+            | Self::Command(_) => Vec::new(),
+        }
+    }
+
+    /// What it waits for, if it does.
+    #[must_use]
+    pub fn command(&self) -> Option<&Command> {
+        match self {
+            Self::Command(command) => Some(command),
+            _ => None,
         }
     }
 
@@ -142,7 +156,11 @@ impl Stroke {
     pub fn period(&self) -> Option<f64> {
         match self {
             Self::Sine { period, .. } | Self::Legs { period, .. } => Some(*period),
-            Self::Constant(_) | Self::Steady { .. } | Self::Table(_) | Self::Cubic(_) => None,
+            Self::Constant(_)
+            | Self::Steady { .. }
+            | Self::Table(_)
+            | Self::Cubic(_)
+            | Self::Command(_) => None,
         }
     }
 
@@ -163,6 +181,7 @@ impl Stroke {
                 let turns = pairs.flat_map(|pair| Cubic::between(pair[0], pair[1]).extrema());
                 extent(knots.iter().map(|knot| knot[1]).chain(turns))
             }
+            Self::Command(command) => command.range(),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::frame::{Frame, Frames};
+use super::open::Open;
 use crate::gait::grid::Grid;
 use crate::gait::number::Number;
 
@@ -29,6 +30,8 @@ pub struct Joints {
     pub cycle: [f64; 2],
     /// Whether it is recorded: what happens before that duration is all of it.
     pub is_recorded: bool,
+    /// Angles of which later parts may not be known.
+    pub open: Option<Open>,
 }
 
 /// A joint of a midline.
@@ -126,7 +129,8 @@ mod tests {
                 is_behind_root: nth == 1,
             }
         };
-        Joints { joints: vec![joint(0), joint(1)], rounding, cycle: [0.0, 1.0], is_recorded: false }
+        let (joints, cycle) = (vec![joint(0), joint(1)], [0.0, 1.0]);
+        Joints { joints, rounding, cycle, is_recorded: false, open: None }
     }
 
     fn swimmer(rounding: f64, amplitude: f64) -> SlenderBody {

@@ -9,12 +9,14 @@ mod flagellum;
 mod frame;
 mod joints;
 mod natural_spline;
+mod open;
 
 pub use anguilliform::Anguilliform;
 pub use carangiform::Carangiform;
 pub use flagellum::Flagellum;
 pub use frame::{Frame, Frames};
 pub use joints::{AngleInTime, Joint, Joints};
+pub use open::Open;
 
 use super::grid::Grid;
 use super::number::Number;
@@ -43,6 +45,15 @@ impl Midline {
             Self::Anguilliform(Anguilliform { gait, .. }) => [gait.ramp(), gait.period],
             Self::Flagellum(Flagellum { gait, .. }) => [RAMP_TIMES * gait.ramp(), gait.period],
             Self::Joints(gait) => gait.cycle,
+        }
+    }
+
+    /// What of it is given by strokes of which later parts may not be known; none of a gait that is periodic in the end.
+    pub fn open(&self) -> Option<Open> {
+        match self {
+            Self::Carangiform(gait) => gait.open(),
+            Self::Joints(gait) => gait.open.clone(),
+            Self::Anguilliform(_) | Self::Flagellum(_) => None,
         }
     }
 

@@ -2,7 +2,9 @@
 
 mod angle;
 mod motion;
+mod open;
 
 pub use angle::RecoilAngle;
 pub(super) use motion::Recoil;
 pub use motion::RecoilMotion;
+pub use open::OpenAngle;

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::case::{BentJoint, Body, GaitSpec, Geometry, JointsGait, Model, ShapeSpec, Stroke};
+use crate::case::{
+    BentJoint, Body, CarangiformGait, GaitSpec, Geometry, JointsGait, Model, ShapeSpec, Stroke,
+};
 use crate::coupling::ShapeError;
 use crate::gait::{
-    AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Pulse, PulseLaw,
-    RecoilMotion, ShapeMotion, SlenderBody,
+    AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Open, Pulse,
+    PulseLaw, RecoilMotion, ShapeMotion, SlenderBody,
 };
 use crate::run::RunError;
 
@@ -42,6 +44,12 @@ pub fn shape_motion(
             return Ok(Some(Arc::new(Pulse { radius: *radius, is_sphere, law })));
         }
         (Some(GaitSpec::Carangiform(gait)), ShapeSpec::Fish(fish)) => {
+            if let Some(still) = at_its_limits(gait) {
+                for gait in still {
+                    let gait = Some(GaitSpec::Carangiform(gait));
+                    shape_motion(&Body { gait, ..body.clone() }, geometry)?;
+                }
+            }
             Midline::Carangiform(Carangiform { length: fish.length, gait: gait.clone() })
         }
         (Some(GaitSpec::Anguilliform(gait)), ShapeSpec::Fish(fish)) => {
@@ -91,6 +99,19 @@ pub fn recoils(model: &Model) -> Result<Vec<BodyRecoil>, RunError> {
     Ok(recoils)
 }
 
+/// A gait that waits for commands, with the values farthest from each other in their place; none of another gait.
+fn at_its_limits(gait: &CarangiformGait) -> Option<[CarangiformGait; 2]> {
+    let CarangiformGait { beat, bend, .. } = gait;
+    beat.iter().chain(bend).find_map(Stroke::command)?;
+    Some([0, 1].map(|end| {
+        let at = |stroke: &Option<Stroke>, end: usize| {
+            let limit = stroke.as_ref()?.range()[end];
+            Some(Stroke::Constant(if limit.is_finite() { limit } else { 0.0 }))
+        };
+        CarangiformGait { beat: at(beat, 1), bend: at(bend, end), ..gait.clone() }
+    }))
+}
+
 /// The midline of a chain with a skin.
 fn joints(gait: &JointsGait) -> Joints {
     let bent = |joint: &BentJoint| {
@@ -127,8 +148,11 @@ fn joints(gait: &JointsGait) -> Joints {
     // Angles that are all constant have any period
     let period = if period.is_finite() { period } else { 1.0 };
     let joints = gait.joints.iter().map(bent).collect();
+    let strokes: Vec<Stroke> = gait.joints.iter().map(|joint| joint.angle.clone()).collect();
+    let is_open = strokes.iter().any(|stroke| stroke.command().is_some());
+    let open = is_open.then(|| Open::new(strokes, period));
     let is_recorded = spacing.is_finite();
-    Joints { joints, rounding: gait.rounding, cycle: [transient, period], is_recorded }
+    Joints { joints, rounding: gait.rounding, cycle: [transient, period], is_recorded, open }
 }
 
 #[cfg(test)]

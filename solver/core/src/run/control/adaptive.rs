@@ -30,12 +30,14 @@ struct Made {
 }
 
 impl<const D: usize> Run<'_, D> {
-    /// Makes all steps; their number.
+    /// Makes all steps up to a time (s), at which one ends.
     pub(in crate::run) fn adaptive_steps(
         &mut self,
         settings: &Unsteady,
         adaptive: &Adaptive,
-    ) -> Result<usize, RunError> {
+        until: f64,
+    ) -> Result<(), RunError> {
+        let until = until.min(settings.end);
         let bounds = Bounds {
             smallest: adaptive.smallest.unwrap_or(settings.step * 1e-6),
             largest: adaptive.largest.unwrap_or(settings.end / 10.0),
@@ -44,14 +46,14 @@ impl<const D: usize> Run<'_, D> {
         if state.last_step == 0.0 && control.proposed_step.is_none() {
             self.begin_in_pieces(settings, settings.step.min(settings.end));
         }
-        loop {
+        while until - self.simulation.state.time > AT_END * settings.end {
             let proposed = self.simulation.control.proposed_step.unwrap_or(settings.step);
             self.restart_at_discontinuity(settings, proposed);
             let pieces = &self.simulation.control.pieces;
             let is_start = !pieces.is_empty() && settings.scheme == Scheme::Bdf2;
             let piece = pieces.last().map(|piece| piece.size);
             let wanted = piece.unwrap_or(proposed);
-            let size = self.cut_to_fit(settings, proposed, wanted.min(bounds.largest));
+            let size = self.cut_to_fit(until, proposed, wanted.min(bounds.largest));
             // Pieces of the first step are smaller than any that is asked for
             let floor = bounds.smallest;
             let floor = if is_start { floor.min(SMALLEST_PART * size) } else { floor };
@@ -70,8 +72,8 @@ impl<const D: usize> Run<'_, D> {
             }
             control.proposed_step = Some(proposed.clamp(bounds.smallest, bounds.largest));
             let is_last = settings.end - state.time <= AT_END * settings.end;
-            if is_last {
-                state.round_time(settings.end);
+            if until - state.time <= AT_END * settings.end {
+                state.round_time(until);
             }
             let is_last = is_last || self.is_over(settings)?;
             let Made { report, size, .. } = made;
@@ -79,10 +81,11 @@ impl<const D: usize> Run<'_, D> {
             let summary = StepSummary { iterations, time_step: size, is_last, crossing };
             self.report(&report.loads, summary)?;
             if is_last {
-                return Ok(self.simulation.state.step);
+                break;
             }
             self.check_signals(is_last)?;
         }
+        Ok(())
     }
 
     /// Makes the next steps the pieces of one of this size (s).
@@ -102,13 +105,13 @@ impl<const D: usize> Run<'_, D> {
         }
     }
 
-    /// A step that ends with the run, and where rates jump; the last two before share what is left.
-    fn cut_to_fit(&self, settings: &Unsteady, proposed: f64, size: f64) -> f64 {
+    /// A step that ends at a time (s), and where rates jump; the last two before share what is left.
+    fn cut_to_fit(&self, until: f64, proposed: f64, size: f64) -> f64 {
         let time = self.simulation.state.time;
-        let mut left = settings.end - time;
+        let mut left = until - time;
         let near = NEAR * proposed.min(left);
         let jumps = self.simulation.problem.rate_discontinuities.as_ref();
-        let next = jumps.and_then(|jumps| jumps(time + near, settings.end).first().copied());
+        let next = jumps.and_then(|jumps| jumps(time + near, until).first().copied());
         left = next.map_or(left, |next| next - time);
         if left >= 2.0 * size {
             size

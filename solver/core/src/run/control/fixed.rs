@@ -29,20 +29,34 @@ impl StepTally {
 }
 
 impl<const D: usize> Run<'_, D> {
-    /// Makes all steps; their number, with those before the run resumed.
-    pub(in crate::run) fn fixed_steps(&mut self, settings: &Unsteady) -> Result<usize, RunError> {
+    /// Makes all steps up to a time (s), which ends a step where it is within one.
+    pub(in crate::run) fn fixed_steps(
+        &mut self,
+        settings: &Unsteady,
+        until: f64,
+    ) -> Result<(), RunError> {
         let n_steps = settings.n_steps();
         // A resumed run may be anywhere within a step, and may have made others of another size, after
         // whose number its own are counted
         let first = settings.n_steps_to(self.simulation.state.time);
+        let near = NEAR * settings.step;
         for index in first..n_steps {
             let started = self.simulation.state.time;
+            if started >= until - near {
+                break;
+            }
             let target = ((index + 1) as f64 * settings.step).min(settings.end);
+            let is_cut = until < target - near;
+            let target = if is_cut { until } else { target };
             let tally = self.fixed_step(settings, target)?;
             // Counted, not summed, so that rounding does not pile up
-            let is_last = index + 1 == n_steps;
+            let is_last = index + 1 == n_steps && !is_cut;
             let state = &mut self.simulation.state;
-            let time = if is_last { settings.end } else { (index + 1) as f64 * settings.step };
+            let time = match (is_cut, is_last) {
+                (true, _) => until,
+                (false, true) => settings.end,
+                (false, false) => (index + 1) as f64 * settings.step,
+            };
             state.round_time(time);
             let is_last = is_last || self.is_over(settings)?;
             let state = &self.simulation.state;
@@ -58,7 +72,7 @@ impl<const D: usize> Run<'_, D> {
             }
             self.check_signals(false)?;
         }
-        Ok(self.simulation.state.step)
+        Ok(())
     }
 
     /// Makes a step to a time (s) in its pieces, or the rest of it, in halves where it must be.

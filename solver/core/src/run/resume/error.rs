@@ -7,7 +7,7 @@ use crate::coupling::ShapeError;
 use crate::motion::RemeshError;
 
 /// Version of what is saved; others are refused.
-pub const VERSION: u32 = 10;
+pub const VERSION: u32 = 11;
 
 /// Why a run cannot resume from a state.
 #[derive(Debug, Error)]
@@ -30,6 +30,15 @@ pub enum ResumeError {
         state: String,
         /// Its value in the case.
         case: String,
+    },
+    /// Something else was asked for before.
+    #[error(
+        "what was asked for before time {time} is not what is recorded: repeat the recording from the start, \
+         with --overwrite"
+    )]
+    OtherCommands {
+        /// Time of the state (s).
+        time: f64,
     },
     /// The case cannot be written.
     #[error("the case cannot be written: {0}")]

@@ -1,6 +1,7 @@
 //! `SavedState`: a state as it is written to a file, for a run that resumes from it.
 
 mod error;
+mod longer;
 mod series;
 
 use std::collections::BTreeMap;
@@ -9,13 +10,14 @@ use alewife_mesh::{Mesh, Point};
 use serde::{Deserialize, Serialize};
 
 pub use self::error::{ResumeError, VERSION};
+use self::longer::agrees_with_past;
 use self::series::SavedSeries;
 use super::simulation::{Simulation, fluid_system};
 use super::step_control::StepControl;
 use super::{RunError, Series};
 use crate::algebra::SolverMemory;
 use crate::body::Pose;
-use crate::case::Case;
+use crate::case::{Case, Recording};
 use crate::coupling::Problem;
 use crate::motion::MovingMesh;
 use crate::state::{State, is_consistent};
@@ -32,6 +34,7 @@ pub struct SavedState<const D: usize> {
     reference: Option<SavedReference<D>>,
     solver: SolverMemory,
     series: SavedSeries,
+    recording: Recording,
 }
 
 /// The reference mesh, and where the bodies are in it.
@@ -67,7 +70,8 @@ pub struct Reference<'a, const D: usize> {
 }
 
 impl<const D: usize> SavedState<D> {
-    /// What is written of a simulation of a case whose quantities so far are `series`.
+    /// What is written of a simulation of a case whose quantities so far are `series`, for which what is recorded
+    /// was asked.
     ///
     /// # Errors
     /// When the case cannot be written.
@@ -75,6 +79,7 @@ impl<const D: usize> SavedState<D> {
         case: &Case,
         simulation: &Simulation<D>,
         series: &Series,
+        recording: &Recording,
     ) -> Result<Self, ResumeError> {
         Ok(Self {
             version: VERSION,
@@ -84,6 +89,7 @@ impl<const D: usize> SavedState<D> {
             reference: simulation.moving_mesh.as_ref().map(SavedReference::of),
             solver: simulation.work.system.solver_memory(),
             series: SavedSeries::of(series),
+            recording: recording.clone(),
         })
     }
 
@@ -115,6 +121,12 @@ impl<const D: usize> SavedState<D> {
     #[must_use]
     pub fn series(&self) -> Series {
         self.series.series()
+    }
+
+    /// What was asked for so far, and where the run paused.
+    #[must_use]
+    pub fn recording(&self) -> &Recording {
+        &self.recording
     }
 
     /// Puts a simulation of the same problem where this state is; `follow` makes what moves
@@ -152,7 +164,7 @@ impl<const D: usize> SavedState<D> {
         Ok(())
     }
 
-    /// Whether it is a state of what a case describes.
+    /// Whether it is a state of what a case describes; tables and files of strokes may go on for longer.
     ///
     /// # Errors
     /// When it is of another version, or another value stands in the case.
@@ -164,8 +176,11 @@ impl<const D: usize> SavedState<D> {
         let value = |keys: &BTreeMap<String, String>, key: &str| {
             keys.get(key).map_or_else(|| "absent".to_owned(), String::clone)
         };
-        match self.case.keys().chain(keys.keys()).find(|key| self.case.get(*key) != keys.get(*key))
-        {
+        let differs = |key: &&String| {
+            let (state, case) = (value(&self.case, key), value(&keys, key));
+            state != case && !agrees_with_past(key, &state, &case, self.state.time)
+        };
+        match self.case.keys().chain(keys.keys()).find(differs) {
             None => Ok(()),
             Some(key) => {
                 let (state, case) = (value(&self.case, key), value(&keys, key));

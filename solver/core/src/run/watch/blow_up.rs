@@ -49,7 +49,8 @@ impl<const D: usize> Run<'_, D> {
         let next = self.sound.as_ref().map(SoundState::next);
         let is_due = next.is_none_or(|next| simulation.state.step >= next);
         if simulation.problem.has_inertia && is_due && self.pace.is_sound() {
-            let state = SavedState::of(self.case(), simulation, &Series::default())?;
+            let state =
+                SavedState::of(self.case(), simulation, &Series::default(), &self.recording)?;
             self.sound = Some(SoundState::new(state));
         }
         Ok(())

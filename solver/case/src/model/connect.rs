@@ -1,0 +1,165 @@
+//! What a case waits for, by name: every `command` of a model gets a history of its own.
+
+use super::Model;
+use super::commands::Commands;
+use crate::spec::command::Command;
+use crate::{
+    Body, BoundaryCondition, GaitSpec, JointKind, MagneticSpec, Motion, Stroke, TimeFunction,
+};
+
+/// A command of a body or a side: what it is called there, the key below that of its owner, and the command.
+type Found<'a> = (String, String, &'a mut Command);
+
+impl Model {
+    /// The same with commands of its own, for which nothing was asked yet: what is asked for in one run must not
+    /// reach another.
+    #[must_use]
+    pub fn disconnected(&self) -> Self {
+        let mut model = self.clone();
+        model.connect_commands();
+        model
+    }
+
+    /// Finds all commands, and gives each a history.
+    pub(super) fn connect_commands(&mut self) {
+        let mut commands = Commands::default();
+        let written = self.case.joint.len();
+        for (index, joint) in self.joints.iter_mut().enumerate() {
+            let Some(command) = of_stroke(of_joint(&mut joint.kind)) else { continue };
+            let made = index.checked_sub(written);
+            let (name, key) = match made.and_then(|made| Some((made, self.joint_names.get(made)?)))
+            {
+                None => (format!("{}.joint", joint.child), format!("joint.{index}.kind")),
+                Some((made, name)) => {
+                    let swimmer = self.swimmer_of_joints.get(made).copied().unwrap_or_default();
+                    (name.clone(), format!("swimmer.{swimmer}.kind"))
+                }
+            };
+            commands.connect(name, key, command);
+        }
+        let written = self.case.body.len();
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            let made = index.checked_sub(written).and_then(|made| self.swimmer_of_bodies.get(made));
+            let name = body.name.clone();
+            for (what, below, command) in of_body(body) {
+                let key = match made {
+                    None => format!("body.{index}.{below}"),
+                    Some(swimmer) => format!("swimmer.{swimmer}.kind"),
+                };
+                commands.connect(format!("{name}.{what}"), key, command);
+            }
+        }
+        for (side, condition) in &mut self.case.boundary {
+            if let Some(command) = of_factor(of_side(condition)) {
+                commands.connect(format!("{side}.factor"), format!("boundary.{side}"), command);
+            }
+        }
+        let flow = self.case.flow.as_mut().and_then(|flow| flow.factor.as_mut());
+        if let Some(command) = of_factor(flow) {
+            commands.connect("flow.factor".to_owned(), "flow.factor".to_owned(), command);
+        }
+        let magnetic = self.case.field.as_mut().and_then(|field| field.magnetic.as_mut());
+        for (what, below, command) in magnetic.map(of_magnetic).unwrap_or_default() {
+            commands.connect(format!("field.{what}"), format!("field.magnetic.{below}"), command);
+        }
+        self.commands = commands;
+    }
+}
+
+fn of_stroke(stroke: Option<&mut Stroke>) -> Option<&mut Command> {
+    match stroke {
+        Some(Stroke::Command(command)) => Some(command),
+        _ => None,
+    }
+}
+
+fn of_factor(factor: Option<&mut TimeFunction>) -> Option<&mut Command> {
+    match factor {
+        Some(TimeFunction::Command(command)) => Some(command),
+        _ => None,
+    }
+}
+
+/// The stroke or motor of a joint.
+fn of_joint(kind: &mut JointKind) -> Option<&mut Stroke> {
+    match kind {
+        JointKind::Arm { length, .. } => Some(length),
+        JointKind::Bent { angle, .. } => Some(angle),
+        JointKind::Hinge(hinge) => hinge.torque.as_mut(),
+        JointKind::Slider(slider) => slider.force.as_mut(),
+        JointKind::Ball(_) => None,
+    }
+}
+
+fn of_side(condition: &mut BoundaryCondition) -> Option<&mut TimeFunction> {
+    match condition {
+        BoundaryCondition::Velocity { factor, .. }
+        | BoundaryCondition::Parabolic { factor, .. }
+        | BoundaryCondition::Shear { factor, .. } => factor.as_mut(),
+        BoundaryCondition::NoSlip
+        | BoundaryCondition::DoNothing
+        | BoundaryCondition::TractionFree
+        | BoundaryCondition::Symmetry
+        | BoundaryCondition::Axis
+        | BoundaryCondition::WavingSheet { .. }
+        | BoundaryCondition::Periodic(_) => None,
+    }
+}
+
+/// Commands of a magnetic field: of its components along the coordinates, and of factors.
+fn of_magnetic(magnetic: &mut MagneticSpec) -> Vec<Found<'_>> {
+    let components = magnetic.components.iter_mut().enumerate().map(|(axis, stroke)| {
+        let name = ["x", "y", "z"][axis.min(2)].to_owned();
+        (name, format!("components.{axis}"), Some(stroke))
+    });
+    let linear = magnetic.linear.iter_mut();
+    let linear = linear.map(|one| ("linear".to_owned(), "linear".to_owned(), one.factor.as_mut()));
+    let dipoles = magnetic.dipoles.iter_mut().enumerate().map(|(nth, one)| {
+        (format!("dipole.{}", nth + 1), format!("dipoles.{nth}"), one.factor.as_mut())
+    });
+    let strokes = components.chain(linear).chain(dipoles);
+    strokes.filter_map(|(name, key, stroke)| Some((name, key, of_stroke(stroke)?))).collect()
+}
+
+/// Commands of a body: of its load, its motion and its gait.
+fn of_body(body: &mut Body) -> Vec<Found<'_>> {
+    let mut found: Vec<Found<'_>> = Vec::new();
+    if let Some(command) = of_factor(body.load_factor.as_mut()) {
+        found.push(("load".to_owned(), "load_factor".to_owned(), command));
+    }
+    if let Motion::Imposed(imposed) = &mut body.motion
+        && let Some(command) = of_factor(imposed.factor.as_mut())
+    {
+        found.push(("motion".to_owned(), "motion.imposed.factor".to_owned(), command));
+    }
+    match &mut body.gait {
+        Some(GaitSpec::Squirmer(gait)) => {
+            for (mode, factor) in &mut gait.factors {
+                if let Some(command) = of_factor(Some(factor)) {
+                    let key = format!("gait.squirmer.factors.{mode}");
+                    found.push((format!("mode.{mode}"), key, command));
+                }
+            }
+            if let Some(command) = of_factor(gait.turn.as_mut()) {
+                found.push(("turn".to_owned(), "gait.squirmer.turn".to_owned(), command));
+            }
+        }
+        Some(GaitSpec::Joints(gait)) => {
+            for (nth, joint) in gait.joints.iter_mut().enumerate() {
+                if let Some(command) = of_stroke(Some(&mut joint.angle)) {
+                    found.push((format!("joint.{}", nth + 1), "gait".to_owned(), command));
+                }
+            }
+        }
+        Some(GaitSpec::Carangiform(gait)) => {
+            for (what, stroke) in [("beat", &mut gait.beat), ("bend", &mut gait.bend)] {
+                if let Some(command) = of_stroke(stroke.as_mut()) {
+                    found.push((what.to_owned(), format!("gait.carangiform.{what}"), command));
+                }
+            }
+        }
+        Some(GaitSpec::Anguilliform(_) | GaitSpec::Flagellum(_) | GaitSpec::Pulsating(_))
+        | None => {}
+    }
+    found
+}
