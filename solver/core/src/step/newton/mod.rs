@@ -251,7 +251,7 @@ pub(super) fn newton<const D: usize>(
 }
 
 /// Halvings of a step of Newton's method at most.
-const MOST_HALVINGS: u32 = 8;
+const MOST_HALVINGS: i32 = 8;
 
 /// The end of a step of Newton's method, or a point on the way from its start at which the norm of the residual is not larger
 /// than at the start: near that all entries fall.
@@ -268,7 +268,7 @@ fn shortened<const D: usize>(
         if norm(&system.reduced_residual(at, &trial, &residual)) <= size {
             return trial;
         }
-        trial = start.towards(end, 0.5f64.powi(halving as i32));
+        trial = start.towards(end, 0.5f64.powi(halving));
     }
     trial
 }
