@@ -7,5 +7,6 @@ mod documentation;
 mod linear_solver;
 mod motion;
 mod moving;
+mod shear;
 mod spatial;
 mod swimming;

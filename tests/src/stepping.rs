@@ -87,7 +87,7 @@ pub fn one_system_from_rest<const D: usize>(
     };
     let history = vec![Point::<D>::zeros(); mesh.n_nodes()];
     let terms = FlowTerms {
-        viscosity: problem.viscosity_at(&[]),
+        viscosity: problem.viscosity_at(&[], false),
         density: problem.density,
         rate,
         history: &history,

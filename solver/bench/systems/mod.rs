@@ -109,7 +109,7 @@ impl TimeStep {
 
     fn terms(&self) -> FlowTerms<'_, 2> {
         FlowTerms {
-            viscosity: self.problem.viscosity_at(&[]),
+            viscosity: self.problem.viscosity_at(&[], false),
             density: self.problem.density,
             rate: self.rate,
             history: &self.history,

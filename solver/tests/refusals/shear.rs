@@ -1,6 +1,6 @@
 //! Wrong laws of a viscosity that depends on the rate of shear.
 
-use super::{assert_accepted, check, edited, refused};
+use super::{assert_accepted, assert_refused, check, edited, refused, unsteady};
 
 fn wrong(law: &str, said: &[&str]) {
     refused("viscosity = 0.001", &format!("viscosity = {law}"), said);
@@ -64,6 +64,14 @@ fn one_law_is_wanted_with_all_its_keys() {
     ] {
         wrong(law, &[said, "wrong.toml:"]);
     }
+}
+
+#[test]
+fn a_fluid_that_shear_thickens_takes_no_contact() {
+    let law = "{ power-law = { consistency = 0.001, index = 1.5, regularised = 1e-3 } }";
+    let text = unsteady("").replace("viscosity = 0.001", &format!("viscosity = {law}"))
+        + "[contact.barrier]\nrange = 0.01\nstiffness = 1.0\n";
+    assert_refused(&check(&text, &[]), &["index` is 1.5", "4/3", "wrong.toml:6:"]);
 }
 
 #[test]

@@ -44,6 +44,8 @@ pub(super) struct StepEquations<'a, const D: usize> {
     pub convection: ConvectionChoice,
     pub history: &'a StepHistory<D>,
     pub configuration: &'a StepConfiguration<D>,
+    /// Whether bodies may be in contact.
+    pub has_contact: bool,
 }
 
 impl<const D: usize> StepEquations<'_, D> {
@@ -92,14 +94,16 @@ impl<const D: usize> FlowEquations<D> for StepEquations<'_, D> {
         } else {
             self.problem.newton_convection()
         };
-        // Linearised about the extrapolated strain, or about that of the flow itself: a step of Newton's method from there
+        // Linearised about the extrapolated strain, or about that of the flow itself: a step of Newton's method from there.
+        // In contact velocities jump from step to step, and a linearised stress may drive the flow
         let sheared = if self.shears_by_newton() {
             &solution.velocity
         } else {
             &self.history.extrapolated.velocity
         };
+        let has_tangent = self.shears_by_newton() || !self.has_contact;
         FlowTerms {
-            viscosity: self.problem.viscosity_at(sheared),
+            viscosity: self.problem.viscosity_at(sheared, has_tangent),
             density: self.problem.density,
             rate: self.history.step.bdf.next,
             history: &self.history.derivative,

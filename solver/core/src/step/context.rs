@@ -108,7 +108,8 @@ impl<'a, const D: usize> StepContext<'a, D> {
         &'b self,
         configuration: &'b StepConfiguration<D>,
     ) -> StepEquations<'b, D> {
-        let TimeStepper { problem, convection, .. } = self.stepper;
-        StepEquations { problem, convection, history: &self.history, configuration }
+        let TimeStepper { problem, convection, contact, .. } = self.stepper;
+        let has_contact = contact.is_some();
+        StepEquations { problem, convection, history: &self.history, configuration, has_contact }
     }
 }

@@ -17,13 +17,15 @@ pub enum ViscosityTerm<'a, const D: usize> {
 
 /// A viscosity linearised about the rate of strain D0 of a given velocity: the stress is
 /// 2 mu(D0) D + 8 mu' (D0 : (D - D0)) D0, with mu' = d mu / d(2 D : D). Where the given velocity is the iterate itself, that is
-/// the step of Newton's method.
+/// the step of Newton's method. Without its tangent the stress is 2 mu(D0) D, which takes energy from any flow.
 #[derive(Debug, Clone, Copy)]
 pub struct LocalViscosity<'a, const D: usize> {
     /// The law.
     pub law: Viscosity,
     /// The given velocity at the nodes (m/s).
     pub velocity: &'a [Point<D>],
+    /// Whether the stress has the term with mu'.
+    pub has_tangent: bool,
 }
 
 /// The viscosity at a point, with the strain it is taken at.
@@ -31,7 +33,7 @@ pub struct LocalViscosity<'a, const D: usize> {
 pub struct PointViscosity<const D: usize> {
     /// mu (Pa s).
     pub value: f64,
-    /// 2 d mu / d(2 D0 : D0) (Pa s3).
+    /// 2 d mu / d(2 D0 : D0) (Pa s3), zero without a tangent.
     pub slope: f64,
     /// gradient\[(i, j)\] = d_j u_i of the given velocity (1/s).
     pub gradient: SMatrix<f64, D, D>,
@@ -99,14 +101,8 @@ impl<const D: usize> LocalViscosity<'_, D> {
         let strain = gradient + gradient.transpose();
         let squared_rate = squared_shear(gradient, hoop);
         let ViscosityAtRate { value, slope } = self.law.at(squared_rate);
-        PointViscosity {
-            value,
-            slope: 2.0 * slope,
-            gradient: *gradient,
-            strain,
-            hoop,
-            squared_rate,
-        }
+        let slope = if self.has_tangent { 2.0 * slope } else { 0.0 };
+        PointViscosity { value, slope, gradient: *gradient, strain, hoop, squared_rate }
     }
 }
 

@@ -3,6 +3,10 @@
 use crate::rules::Findings;
 use crate::{Plateaus, Scheme, ShearLaw, TimeSettings};
 
+/// Index up to which a viscosity at extrapolated rates of shear is stable without inertia: a small change of the rate g of a
+/// power law under a given stress obeys g'' = (1 - index) (2 g' - g) from step to step.
+const THICKENING: f64 = 4.0 / 3.0;
+
 pub fn check(findings: &mut Findings<'_>) {
     let Some(law) = findings.case().fluid.viscosity.law() else { return };
     if let ShearLaw::Carreau(plateaus) | ShearLaw::Cross(plateaus) = law {
@@ -18,6 +22,18 @@ pub fn check(findings: &mut Findings<'_>) {
                 plateaus.index
             ),
             "write an index between 0 and 1, or take `carreau`",
+        );
+    }
+    if findings.case().contact.is_some() && law.index() > THICKENING {
+        let key = format!("fluid.viscosity.{}.index", law.name());
+        findings.error(
+            &key,
+            format!(
+                "`{key}` is {}, but with [contact] the viscosity is that of extrapolated rates of shear, which is stable up to \
+                 an index of 4/3 only",
+                law.index()
+            ),
+            "write a smaller index, or leave [contact] out",
         );
     }
     let is_explicit = matches!(&findings.case().time, TimeSettings::Unsteady(unsteady)

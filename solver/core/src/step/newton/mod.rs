@@ -240,7 +240,7 @@ pub(super) fn newton<const D: usize>(
         };
         let next = if criterion.is_damped {
             timing.measure(Stage::Assembly, || {
-                shortened(system, at, equations, [&solution, &next], largest(&reduced))
+                shortened(system, at, equations, [&solution, &next], norm(&reduced))
             })
         } else {
             next
@@ -253,8 +253,8 @@ pub(super) fn newton<const D: usize>(
 /// Halvings of a step of Newton's method at most.
 const MOST_HALVINGS: u32 = 8;
 
-/// The end of a step of Newton's method, or a point on the way from its start at which the largest entry of the residual is
-/// not larger than a size: near the start all entries fall.
+/// The end of a step of Newton's method, or a point on the way from its start at which the norm of the residual is not larger
+/// than at the start: near that all entries fall.
 fn shortened<const D: usize>(
     system: &FluidSystem<D>,
     at: &Configuration<'_, D>,
@@ -265,12 +265,17 @@ fn shortened<const D: usize>(
     let mut trial = end.clone();
     for halving in 1..=MOST_HALVINGS {
         let residual = flow_residual(system, at, equations, &trial);
-        if largest(&system.reduced_residual(at, &trial, &residual)) <= size {
+        if norm(&system.reduced_residual(at, &trial, &residual)) <= size {
             return trial;
         }
         trial = start.towards(end, 0.5f64.powi(halving as i32));
     }
     trial
+}
+
+/// The root of the sum of squares.
+fn norm(residual: &[f64]) -> f64 {
+    residual.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
 /// The largest size of an entry.

@@ -98,7 +98,11 @@ impl<const D: usize> FlowEquations<D> for SteadyEquations<'_, D> {
         let viscosity = match problem.viscosity.part(parts.law) {
             Viscosity::Newtonian(value) => ViscosityTerm::Constant(value),
             law if parts.law == 0.0 => ViscosityTerm::Constant(law.zero_shear()),
-            law => ViscosityTerm::Local(LocalViscosity { law, velocity: &solution.velocity }),
+            law => ViscosityTerm::Local(LocalViscosity {
+                law,
+                velocity: &solution.velocity,
+                has_tangent: true,
+            }),
         };
         let convection =
             if parts.density > 0.0 { problem.newton_convection() } else { Convection::None };

@@ -68,7 +68,7 @@ pub fn cell_matrix<S: Simd, const D: usize, const N: usize, const P: usize, cons
             }
             batch.add_hoop_stress::<S>(&inverse_radius, &mut matrix);
         }
-        if let Some(shear) = &shear {
+        if let Some(shear) = shear.as_ref().filter(|shear| shear.has_tangent) {
             batch.add_tangent::<S>(shear, &inverse_radius, &mut matrix);
         }
         batch.add_divergence::<S>(metric, &inverse_radius, &mut matrix);

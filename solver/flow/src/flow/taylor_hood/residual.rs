@@ -67,7 +67,10 @@ pub fn cell_residual<S: Simd, const D: usize, const N: usize, const P: usize, co
                     (2.0 * viscosity[q] * stretch[q] - pressure[q]) / radius;
             }
         }
-        let tangent = shear.as_ref().map(|shear| (shear, shear.change::<S>(&gradient, &stretch)));
+        let tangent = shear
+            .as_ref()
+            .filter(|shear| shear.has_tangent)
+            .map(|shear| (shear, shear.change::<S>(&gradient, &stretch)));
         if let Some((shear, change)) = tangent.filter(|_| metric.is_revolved()) {
             for q in 0..Q {
                 let radius = points.position[Metric::RADIAL][q];

@@ -20,6 +20,8 @@ pub struct ShearPoints<const D: usize, const Q: usize> {
     pub hoop: [f64; Q],
     /// 2 D0 : D0 (1/s2).
     squared_rate: [f64; Q],
+    /// Whether the stress has a term with the slope.
+    pub has_tangent: bool,
 }
 
 impl<const D: usize, const Q: usize> ShearPoints<D, Q> {
@@ -64,7 +66,7 @@ impl<const D: usize, const Q: usize> ShearPoints<D, Q> {
             let at = local.law.at(squared_rate[q]);
             (value[q], slope[q]) = (at.value, 2.0 * at.slope);
         }
-        Some(Self { value, slope, gradient, hoop, squared_rate })
+        Some(Self { value, slope, gradient, hoop, squared_rate, has_tangent: local.has_tangent })
     }
 
     /// By how much the linearised viscosity differs from that at the points (Pa s) in a flow of this gradient (1/s) and

@@ -64,6 +64,7 @@ pub struct Setting<const D: usize> {
     pub viscosity: Viscosity,
     /// The velocity whose strain a viscosity is taken at; that of the setting if absent.
     pub sheared: Option<Vec<Point<D>>>,
+    pub has_tangent: bool,
 }
 
 impl<const D: usize> Setting<D> {
@@ -97,6 +98,7 @@ impl<const D: usize> Setting<D> {
             density: 1.3,
             viscosity: Viscosity::Newtonian(0.7),
             sheared: None,
+            has_tangent: true,
             mesh,
             metric,
             layout,
@@ -127,6 +129,7 @@ impl<const D: usize> Setting<D> {
             law => ViscosityTerm::Local(LocalViscosity {
                 law,
                 velocity: self.sheared.as_ref().unwrap_or(&self.velocity),
+                has_tangent: self.has_tangent,
             }),
         };
         let terms = FlowTerms {

@@ -52,6 +52,10 @@ fn check_tangent<const D: usize>(mesh: &Mesh<D>, metric: Metric) {
             let expected = product(&setting, &matrix, &direction);
             let error = largest_difference(&slope(&mut setting, convection, 1e-5), &expected);
             assert!(error < 1e-7, "{D} {metric:?} {law:?} {convection:?}: {error}");
+            setting.has_tangent = false;
+            let other = product(&setting, &setting.matrix(convection), &direction);
+            let error = largest_difference(&other, &expected);
+            assert!(error > 1e-3, "{D} {metric:?} {law:?}: without its tangent {error}");
         }
     }
 }
@@ -67,14 +71,16 @@ fn with_the_viscosity_of_the_iterate_the_matrix_is_the_derivative_of_the_residua
 
 fn check_linear<const D: usize>(mesh: &Mesh<D>, metric: Metric) {
     for law in LAWS {
-        let mut setting = Setting::new(mesh.clone(), metric, false);
-        setting.viscosity = law;
-        setting.sheared = Some(field(mesh, 0.25));
-        let matrix = setting.matrix(Convection::Oseen);
-        let direction = setting.moved(0.0, false);
-        let expected = product(&setting, &matrix, &direction);
-        let error = largest_difference(&slope(&mut setting, Convection::Oseen, 1.0), &expected);
-        assert!(error < 1e-12, "{D} {metric:?} {law:?}: {error}");
+        for has_tangent in [false, true] {
+            let mut setting = Setting::new(mesh.clone(), metric, false);
+            (setting.viscosity, setting.has_tangent) = (law, has_tangent);
+            setting.sheared = Some(field(mesh, 0.25));
+            let matrix = setting.matrix(Convection::Oseen);
+            let direction = setting.moved(0.0, false);
+            let expected = product(&setting, &matrix, &direction);
+            let error = largest_difference(&slope(&mut setting, Convection::Oseen, 1.0), &expected);
+            assert!(error < 1e-12, "{D} {metric:?} {law:?} {has_tangent}: {error}");
+        }
     }
 }
 
@@ -89,9 +95,9 @@ fn with_the_viscosity_of_a_given_velocity_the_residual_is_linear() {
 fn check_kernels<const D: usize>(mesh: &Mesh<D>, metric: Metric) {
     let tables = Tables::new(metric);
     for law in LAWS {
-        for is_given in [false, true] {
+        for (is_given, has_tangent) in [(false, true), (true, true), (true, false)] {
             let mut setting = Setting::new(mesh.clone(), metric, false);
-            setting.viscosity = law;
+            (setting.viscosity, setting.has_tangent) = (law, has_tangent);
             setting.sheared = is_given.then(|| field(mesh, 0.25));
             let kernel = quadratic_kernel(&tables, false);
             let plain = PlainKernel { tables: tables.clone(), local: kernel.layout() };
