@@ -1,5 +1,6 @@
 //! The discrete adjoint: exact derivatives of an objective by all parameters of a motion, for the price of one more.
 
+use alewife_solid::material::Principal;
 use alewife_solid::solid::{Difference, Factor, Potential, SolidError, StrainLevel};
 
 use super::SoftError;
@@ -143,8 +144,9 @@ impl<const D: usize> Backward<'_, D> {
         }
         let mut right = self.places[step + 1].clone();
         add(&mut right, a0, &by_velocity);
-        let z = solid.solve_at(&potential, reached, &right, &mut self.factor)?;
-        self.add_parameters(step, &potential, &z)?;
+        let known = solid.principals(reached);
+        let z = solid.solve_at(&potential, reached, &known, &right, &mut self.factor)?;
+        self.add_parameters(step, &potential, &known, &z)?;
         let slopes = body.load_slopes(&motion.places, &motion.velocities, &z);
         add(&mut self.places[step], 1.0, &slopes.places);
         add(&mut self.velocities[step], 1.0, &slopes.velocities);
@@ -168,6 +170,7 @@ impl<const D: usize> Backward<'_, D> {
         &mut self,
         step: usize,
         potential: &Potential<'_, D>,
+        known: &[Principal],
         z: &[f64],
     ) -> Result<(), SolidError> {
         let (levels, solid) = (&self.trajectory.levels, &self.body.solid);
@@ -182,7 +185,8 @@ impl<const D: usize> Backward<'_, D> {
             .collect();
         let reached = &levels[step + 1].places;
         let with_shape = !self.gradient.shape.is_empty();
-        let found = solid.sensitivity(potential, reached, z, with_shape.then_some(&strains[..]))?;
+        let found =
+            solid.sensitivity(potential, reached, known, z, with_shape.then_some(&strains[..]))?;
         let gradient = &mut self.gradient;
         add(&mut gradient.young, -1.0, &found.young);
         add(&mut gradient.poisson, -1.0, &found.poisson);

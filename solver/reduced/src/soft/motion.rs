@@ -78,7 +78,9 @@ impl Plan {
                     "frame {frame} has {found} stretches for {n_sets} sets of fibres"
                 ));
             }
-            if let Some(wrong_one) = targets.iter().find(|target| !(**target > 0.0)) {
+            if let Some(wrong_one) =
+                targets.iter().find(|target| target.is_nan() || **target <= 0.0)
+            {
                 return wrong(format!(
                     "frame {frame} has the stretch {wrong_one}: one is positive, 1 at rest"
                 ));

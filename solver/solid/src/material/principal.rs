@@ -9,8 +9,8 @@ use super::{Curvature, Lame, Law, Tangent, Tensor};
 /// Two columns are orthogonal where the square of their cosine is below this.
 const ORTHOGONAL: f64 = 1e-30;
 
-/// Squared size of a coupling, of the matrix, below which the last rotations are left to the exact ones.
-const ROUGH: f64 = 1e-18;
+/// Squared size of a coupling, of the matrix, that is none.
+const DIAGONAL: f64 = 1e-32;
 
 /// Sweeps at most: four are enough for any matrix of rank three.
 const N_SWEEPS: usize = 30;
@@ -47,20 +47,12 @@ impl Principal {
         let mut columns = deformation * body;
         // The square has lost digits of the smaller stretches, if any: they are found here
         for _ in 0..N_SWEEPS {
-            let mut is_done = true;
-            for [p, q] in PAIRS {
-                let (a, b) = (columns.column(p).norm_squared(), columns.column(q).norm_squared());
-                let dot = columns.column(p).dot(&columns.column(q));
-                if dot * dot > ORTHOGONAL * a * b {
-                    is_done = false;
-                    let zeta = (b - a) / (2.0 * dot);
-                    let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
-                    let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
-                    rotate(&mut columns, [p, q], cosine, cosine * tangent);
-                    rotate(&mut body, [p, q], cosine, cosine * tangent);
-                }
-            }
-            if is_done {
+            let turned = [
+                straighten::<0, 1>(&mut columns, &mut body),
+                straighten::<0, 2>(&mut columns, &mut body),
+                straighten::<1, 2>(&mut columns, &mut body),
+            ];
+            if turned == [false; 3] {
                 break;
             }
         }
@@ -131,44 +123,77 @@ impl Principal {
     }
 }
 
-/// Eigenvectors of a symmetric matrix by Jacobi rotations, to about half of all digits.
+/// Eigenvectors of a symmetric matrix by Jacobi rotations.
 fn directions(mut square: Tensor) -> Tensor {
     let mut vectors = Tensor::identity();
-    let rough = ROUGH * square.norm_squared();
+    let small = DIAGONAL * square.norm_squared();
     for _ in 0..N_SWEEPS {
-        let mut is_done = true;
-        for (pair, [p, q]) in PAIRS.into_iter().enumerate() {
-            let coupling = square[(p, q)];
-            if coupling * coupling <= rough {
-                continue;
-            }
-            is_done = false;
-            let third = 2 - pair;
-            let zeta = (square[(q, q)] - square[(p, p)]) / (2.0 * coupling);
-            let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
-            let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
-            let sine = cosine * tangent;
-            square[(p, p)] -= tangent * coupling;
-            square[(q, q)] += tangent * coupling;
-            square[(p, q)] = 0.0;
-            let (lower, upper) = ((p.min(third), p.max(third)), (q.min(third), q.max(third)));
-            let (a, b) = (square[lower], square[upper]);
-            square[lower] = cosine * a - sine * b;
-            square[upper] = sine * a + cosine * b;
-            rotate(&mut vectors, [p, q], cosine, sine);
-        }
-        if is_done {
+        let couplings = [square[(0, 1)], square[(0, 2)], square[(1, 2)]];
+        if couplings.iter().all(|coupling| coupling * coupling <= small) {
             break;
         }
+        diagonalise::<0, 1, 2>(&mut square, &mut vectors);
+        diagonalise::<0, 2, 1>(&mut square, &mut vectors);
+        diagonalise::<1, 2, 0>(&mut square, &mut vectors);
     }
     vectors
 }
 
-/// Turns two columns by an angle.
-fn rotate(matrix: &mut Tensor, [p, q]: [usize; 2], cosine: f64, sine: f64) {
-    for row in 0..3 {
-        let (a, b) = (matrix[(row, p)], matrix[(row, q)]);
-        matrix[(row, p)] = cosine * a - sine * b;
-        matrix[(row, q)] = sine * a + cosine * b;
+/// Turns the axes P and Q of a symmetric matrix so that nothing couples them; R is the third. Its lower triangle
+/// is not kept.
+fn diagonalise<const P: usize, const Q: usize, const R: usize>(
+    square: &mut Tensor,
+    vectors: &mut Tensor,
+) {
+    let coupling = square[(P, Q)];
+    if coupling == 0.0 {
+        return;
+    }
+    let turn = Turn::of((square[(Q, Q)] - square[(P, P)]) / (2.0 * coupling));
+    square[(P, P)] -= turn.tangent * coupling;
+    square[(Q, Q)] += turn.tangent * coupling;
+    square[(P, Q)] = 0.0;
+    let (one, other) = ((P.min(R), P.max(R)), (Q.min(R), Q.max(R)));
+    let (a, b) = (square[one], square[other]);
+    square[one] = turn.cosine * a - turn.sine * b;
+    square[other] = turn.sine * a + turn.cosine * b;
+    turn.columns::<P, Q>(vectors);
+}
+
+/// Turns two columns so that they are orthogonal, and those of `body` with them; false where they were.
+fn straighten<const P: usize, const Q: usize>(columns: &mut Tensor, body: &mut Tensor) -> bool {
+    let (p, q) = (columns.column(P), columns.column(Q));
+    let (a, b, dot) = (p.norm_squared(), q.norm_squared(), p.dot(&q));
+    if dot * dot <= ORTHOGONAL * a * b {
+        return false;
+    }
+    let turn = Turn::of((b - a) / (2.0 * dot));
+    turn.columns::<P, Q>(columns);
+    turn.columns::<P, Q>(body);
+    true
+}
+
+/// A Jacobi rotation.
+struct Turn {
+    tangent: f64,
+    cosine: f64,
+    sine: f64,
+}
+
+impl Turn {
+    /// By the cotangent of twice its angle.
+    fn of(zeta: f64) -> Self {
+        let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+        let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
+        Self { tangent, cosine, sine: cosine * tangent }
+    }
+
+    /// Turns two columns.
+    fn columns<const P: usize, const Q: usize>(&self, matrix: &mut Tensor) {
+        for row in 0..3 {
+            let (a, b) = (matrix[(row, P)], matrix[(row, Q)]);
+            matrix[(row, P)] = self.cosine * a - self.sine * b;
+            matrix[(row, Q)] = self.sine * a + self.cosine * b;
+        }
     }
 }

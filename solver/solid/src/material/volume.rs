@@ -5,9 +5,8 @@ use num_dual::DualNum;
 /// Steps at most; from stretches a cell survives it takes five to ten.
 const N_STEPS: usize = 100;
 
-/// A change of the stretches after which only derivatives may still be wrong, and they after two more steps no
-/// longer: the last steps are Newton's.
-const CONVERGED: f64 = 1e-13;
+/// A step of Newton's method, so short that its end is exact; derivatives are after two more.
+const CONVERGED: f64 = 1e-8;
 
 /// Newton's method starts here; farther away each step solves for the volume alone, which is slow and safe.
 const NEAR: f64 = 1e-2;
@@ -18,13 +17,14 @@ const NEAR: f64 = 1e-2;
 pub(super) fn nearest_of_unit_volume<T: DualNum<Primitive = f64> + Copy>(s: [T; 3]) -> [T; 3] {
     let mut p = s;
     let mut change = f64::INFINITY;
-    let mut left = N_STEPS;
+    let (mut left, mut is_found) = (N_STEPS, false);
     while left > 0 {
         let next = if change < NEAR { newton(s, p) } else { linearised(s, p) };
         let now: f64 = (0..3).map(|i| (next[i].re() - p[i].re()).abs()).sum();
         p = next;
         left -= 1;
-        if now < CONVERGED && change >= CONVERGED {
+        if now < CONVERGED && !is_found && change < NEAR {
+            is_found = true;
             left = left.min(2 * usize::from(T::NDERIV > 0));
         }
         change = now;

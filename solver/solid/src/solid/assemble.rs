@@ -179,6 +179,13 @@ impl<const D: usize> Solid<D> {
         true
     }
 
+    /// Singular values of the deformations at all points of a state; none at all where a cell is turned over.
+    #[must_use]
+    pub fn principals(&self, places: &[f64]) -> Vec<Principal> {
+        let all: Option<Vec<_>> = self.deformations(places).iter().map(Principal::of).collect();
+        all.unwrap_or_default()
+    }
+
     /// The cells turned over in a state, if any: the first of them.
     pub(super) fn turned_over(&self, places: &[f64]) -> Option<usize> {
         let deformations = self.deformations(places);

@@ -9,7 +9,7 @@ use super::cholesky::Factor;
 use super::geometry::{At, MAX_NODES, MAX_UNKNOWNS};
 use super::mesh::Order;
 use super::potential::Potential;
-use crate::material::{Curvature, Lame, Tensor};
+use crate::material::{Curvature, Lame, Principal, Tensor};
 
 /// Derivatives of z . r, where r is the slope of a potential and z a list of all components.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +45,7 @@ impl Sensitivity {
 impl<const D: usize> Solid<D> {
     /// Solves the linear system of a potential at its minimum for a list of all components, as the adjoint
     /// of a step asks for: by conjugate gradients where factors at hand are near, else by new ones, which are
-    /// kept. Zero where held.
+    /// kept. Zero where held. Singular values may be known, of all points or of none.
     ///
     /// # Errors
     /// [`SolidError::TurnedOver`], and [`SolidError::Singular`] where the state is no minimum.
@@ -53,11 +53,12 @@ impl<const D: usize> Solid<D> {
         &self,
         potential: &Potential<'_, D>,
         places: &[f64],
+        known: &[Principal],
         right: &[f64],
         factor: &mut Option<Factor>,
     ) -> Result<Vec<f64>, SolidError> {
         let turned_over = || SolidError::TurnedOver(self.turned_over(places).unwrap_or_default());
-        let values = potential.curvature(places, Curvature::True, &[]).ok_or_else(turned_over)?;
+        let values = potential.curvature(places, Curvature::True, known).ok_or_else(turned_over)?;
         let right = self.pattern.free(right);
         let near = factor.as_ref().and_then(|factor| {
             self.cholesky.conjugate_gradients(&self.pattern, &values, factor, &right)
@@ -73,7 +74,7 @@ impl<const D: usize> Solid<D> {
     }
 
     /// Derivatives of z . r at a state, the slope r of a potential with inertia or without; `levels` are those
-    /// of its damping, which matter for the shape.
+    /// of its damping, which matter for the shape. Singular values may be known, of all points or of none.
     ///
     /// # Errors
     /// [`SolidError::TurnedOver`].
@@ -81,6 +82,7 @@ impl<const D: usize> Solid<D> {
         &self,
         potential: &Potential<'_, D>,
         places: &[f64],
+        known: &[Principal],
         z: &[f64],
         levels: Option<&[StrainLevel<'_>]>,
     ) -> Result<Sensitivity, SolidError> {
@@ -95,7 +97,7 @@ impl<const D: usize> Solid<D> {
         let mut local = [Point::<D>::zeros(); MAX_NODES];
         let mut number = 0;
         let controls = potential.controls();
-        let is_whole = self.each_point(places, controls, |cell, at, response| {
+        let is_whole = self.each_known_point(places, controls, known, |cell, at, response| {
             let rate = at.gradient(self.gather(cell, z, &mut local));
             let stresses = response.stress_by_moduli();
             for (sum, stress) in by_lame[self.material_of(cell)].iter_mut().zip(stresses) {
