@@ -97,7 +97,9 @@ impl<const D: usize> StepHistory<D> {
             OlderBodies::new(problem, time, poses, twists)
         };
         Ok(Self {
-            shapes: BodyShapes::with(&problem.bodies, time, &coordinates)?,
+            // A guess may bend a body too far
+            shapes: BodyShapes::with(&problem.bodies, time, &coordinates)
+                .or_else(|_| BodyShapes::with(&problem.bodies, time, &state.shapes.now))?,
             before_jump,
             derivative: levels().map(|(now, before)| bdf.history(*now, *before)).collect(),
             extrapolated,

@@ -7,6 +7,7 @@
 
 mod diagnosis;
 mod mobility;
+mod net_flux;
 mod nullspace;
 mod numbering;
 mod refine;
@@ -337,6 +338,7 @@ impl<const D: usize> FluidSystem<D> {
         let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);
         solved.map_err(|error| self.explain(at, error))?;
         free.iter_mut().zip(&step).for_each(|(value, correction)| *value += correction);
+        self.balance_net_flux(at, terms, solution, &mut free, timing)?;
         self.next_solution(at, solution, free, timing)
     }
 

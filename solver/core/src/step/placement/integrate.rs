@@ -20,7 +20,9 @@ impl<const D: usize> StepContext<'_, D> {
         let problem = self.stepper.problem;
         problem.follow_attachments(&poses, &mut coordinates);
         problem.follow_coordinates(&mut poses, &coordinates);
-        let shapes = self.history.shapes.with_coordinates(&problem.bodies, &coordinates)?;
+        // A guess that bends a body too far is one of a step that is too long
+        let shapes = self.history.shapes.with_coordinates(&problem.bodies, &coordinates);
+        let shapes = shapes.map_err(|_| StepError::PosesDiverge)?;
         Ok(Placement { poses, coordinates, shapes })
     }
 
