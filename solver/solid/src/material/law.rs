@@ -39,6 +39,9 @@ pub(super) struct FirstOrder {
     pub stresses: [[f64; 3]; 2],
 }
 
+/// Sum of two stretches at least, in moduli: it vanishes in a cell that is turned over.
+const LEAST: f64 = 1e-3;
+
 impl Law {
     /// The energies a volume by shear modulus and by lambda: with the moduli, their sum is the energy.
     pub(super) fn energies<T: DualNum<Primitive = f64> + Copy>(self, stretches: [T; 3]) -> [T; 2] {
@@ -139,7 +142,8 @@ impl Law {
                 }),
                 twist: pairs(&|_, _, pair| 2.0 * mu - la * (volume - 1.0) * third(pair)),
                 flip: pairs(&|a, b, pair| {
-                    2.0 * mu * (a + b - 2.0) / (a + b) + la * (volume - 1.0) * third(pair)
+                    2.0 * mu * (a + b - 2.0) / (a + b).max(LEAST)
+                        + la * (volume - 1.0) * third(pair)
                 }),
             },
             Self::CorotatedVolume => {
@@ -158,7 +162,8 @@ impl Law {
                     }),
                     flip: pairs(&|a, b, pair| {
                         let [i, j] = PAIRS[pair];
-                        (2.0 * mu * (a + b - 2.0) + la * (a - near[i] + b - near[j])) / (a + b)
+                        (2.0 * mu * (a + b - 2.0) + la * (a - near[i] + b - near[j]))
+                            / (a + b).max(LEAST)
                     }),
                 }
             }

@@ -20,7 +20,7 @@ const N_SWEEPS: usize = 30;
 pub struct Principal {
     /// Principal directions in space, one a column.
     pub space: Tensor,
-    /// Principal stretches, positive, in no order.
+    /// Principal stretches, in no order.
     pub stretches: [f64; 3],
     /// Principal directions in the body at rest, one a column.
     pub body: Tensor,
@@ -36,11 +36,12 @@ pub struct Stress {
 }
 
 impl Principal {
-    /// Singular values by one-sided Jacobi rotations; none where det F is not positive, that is where a cell
-    /// is turned over.
+    /// Singular values by Jacobi rotations; where det F is negative, as in a cell that is turned over on the
+    /// way of a search, the smallest is. None for a deformation without volume.
     #[must_use]
     pub fn of(deformation: &Tensor) -> Option<Self> {
-        if !(deformation.determinant() > 0.0 && deformation.norm_squared().is_finite()) {
+        let volume = deformation.determinant();
+        if volume == 0.0 || !volume.is_finite() {
             return None;
         }
         let mut body = directions(deformation.transpose() * deformation);
@@ -56,9 +57,14 @@ impl Principal {
                 break;
             }
         }
-        let stretches: [f64; 3] = std::array::from_fn(|i| columns.column(i).norm());
+        let mut stretches: [f64; 3] = std::array::from_fn(|i| columns.column(i).norm());
         if stretches.contains(&0.0) {
             return None;
+        }
+        if volume < 0.0 {
+            let smaller = |a: usize, b: usize| if stretches[b] < stretches[a] { b } else { a };
+            let smallest = smaller(smaller(0, 1), 2);
+            stretches[smallest] = -stretches[smallest];
         }
         let space = Tensor::from_fn(|i, j| columns[(i, j)] / stretches[j]);
         Some(Self { space, stretches, body })

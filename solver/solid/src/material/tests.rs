@@ -175,8 +175,19 @@ fn small_strains_are_those_of_hooke_and_a_third_of_lambda_in_the_corotated_volum
 }
 
 #[test]
-fn a_cell_turned_over_has_no_stretches() {
-    assert!(Principal::of(&Tensor::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0)).is_none());
+fn a_cell_turned_over_has_a_negative_stretch() {
+    let over = Tensor::new(1.1, 0.3, 0.0, 0.2, 0.9, 0.1, 0.0, 0.2, -0.4);
+    let at = Principal::of(&over).expect("it has a volume");
+    let product: f64 = at.stretches.iter().product();
+    assert!((product - over.determinant()).abs() < 1e-14);
+    let again = at.space * Tensor::from_diagonal(&at.stretches.into()) * at.body.transpose();
+    assert!((again - over).norm() < 1e-14);
+    // From there the laws that have an energy lead back
+    for law in [Law::Corotated, Law::CorotatedVolume] {
+        let slope = slopes(|f| Principal::of(f).expect("it has a volume").energy(law, LAME), &over);
+        assert!((at.stress(law, LAME).stress - slope).norm() < 1e-7, "{law:?}");
+    }
+    assert!(at.energy(Law::NeoHookean, LAME).is_nan());
     assert!(Principal::of(&Tensor::zeros()).is_none());
     assert!(Principal::of(&Tensor::from_element(f64::NAN)).is_none());
 }

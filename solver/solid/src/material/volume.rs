@@ -8,6 +8,9 @@ const N_STEPS: usize = 100;
 /// A step of Newton's method, so short that its end is exact; derivatives are after two more.
 const CONVERGED: f64 = 1e-8;
 
+/// Where the search starts for stretches that are smaller, or negative.
+const LEAST: f64 = 0.1;
+
 /// Newton's method starts here; farther away each step solves for the volume alone, which is slow and safe.
 const NEAR: f64 = 1e-2;
 
@@ -15,7 +18,7 @@ const NEAR: f64 = 1e-2;
 ///
 /// They obey p_i (s_i - p_i) = kappa.
 pub(super) fn nearest_of_unit_volume<T: DualNum<Primitive = f64> + Copy>(s: [T; 3]) -> [T; 3] {
-    let mut p = s;
+    let mut p = s.map(|s| if s.re() < LEAST { T::from(LEAST) } else { s });
     let mut change = f64::INFINITY;
     let (mut left, mut is_found) = (N_STEPS, false);
     while left > 0 {

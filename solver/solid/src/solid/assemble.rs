@@ -189,7 +189,8 @@ impl<const D: usize> Solid<D> {
     /// The cells turned over in a state, if any: the first of them.
     pub(super) fn turned_over(&self, places: &[f64]) -> Option<usize> {
         let deformations = self.deformations(places);
-        let first = deformations.iter().position(|f| Principal::of(f).is_none());
+        let first =
+            deformations.iter().position(|f| f.determinant().is_nan() || f.determinant() <= 0.0);
         first.map(|number| number / self.points.n_points)
     }
 

@@ -87,9 +87,12 @@ impl Minimiser {
         let solid = potential.solid;
         check_lengths(potential, start)?;
         let mut places = start.to_vec();
-        let mut at = potential
-            .slope(&places)
-            .ok_or_else(|| SolidError::TurnedOver(solid.turned_over(start).unwrap_or_default()))?;
+        let turned_over = |places: &[f64]| match solid.turned_over(places) {
+            Some(cell) => Err(SolidError::TurnedOver(cell)),
+            None => Ok(()),
+        };
+        turned_over(start)?;
+        let mut at = potential.slope(&places).ok_or(SolidError::TurnedOver(0))?;
         let rounding = potential.rounding(start);
         let mut scale = at.scale;
         let mut is_stale = false;
@@ -98,6 +101,7 @@ impl Minimiser {
             let residual = norm(&right);
             scale = scale.max(at.scale);
             if residual <= (self.tolerance * scale).max(BALANCED * rounding.slope) {
+                turned_over(&places)?;
                 return Ok(Minimum { places, iterations, residual, slope: at.slope });
             }
             self.n_iterations += 1;

@@ -97,8 +97,10 @@ impl<const D: usize> Solid<D> {
     /// [`SolidError::TurnedOver`].
     pub fn elastic_energy(&self, places: &[f64], targets: &[f64]) -> Result<f64, SolidError> {
         let controls = super::assemble::Controls { targets, damping: None };
-        let turned_over = || SolidError::TurnedOver(self.turned_over(places).unwrap_or_default());
-        self.energy_of(places, controls).ok_or_else(turned_over)
+        if let Some(cell) = self.turned_over(places) {
+            return Err(SolidError::TurnedOver(cell));
+        }
+        self.energy_of(places, controls).ok_or(SolidError::TurnedOver(0))
     }
 
     /// Whether any of its materials is damped.
