@@ -278,11 +278,6 @@ fn norm(residual: &[f64]) -> f64 {
     residual.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
-/// The largest size of an entry.
-fn largest(residual: &[f64]) -> f64 {
-    residual.iter().fold(0.0, |most, value| most.max(value.abs()))
-}
-
 /// How the residual has fallen so far.
 struct Progress<'a> {
     criterion: &'a Criterion,
