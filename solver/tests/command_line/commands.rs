@@ -27,7 +27,7 @@ fn place() -> tempfile::TempDir {
 /// A run that repeats the commands into a directory.
 fn repeat<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let replay = ["run", "disc.toml", "--quiet", "--threads", "1", "--replay", "commands.csv"];
-    [&replay, &["--out", out], more].concat()
+    [&replay[..], &["--out", out], more].concat()
 }
 
 fn read(place: &Path, file: &str) -> String {
