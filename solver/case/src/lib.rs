@@ -24,6 +24,7 @@ pub use read::recording::Recording;
 pub use read::schema::schema;
 pub use rules::{at_rest, check};
 pub use spec::body::axial_vector::AxialVector;
+pub use spec::body::command::Command;
 pub use spec::body::gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
     JointsGait, PulsatingGait, TubeShape,
@@ -40,7 +41,6 @@ pub use spec::body::{
     PartSpec, ShapeSpec,
 };
 pub use spec::case::Case;
-pub use spec::command::Command;
 pub use spec::comparison::reference::{
     Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant,
 };

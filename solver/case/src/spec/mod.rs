@@ -2,7 +2,6 @@
 
 pub(crate) mod body;
 pub(crate) mod case;
-pub(crate) mod command;
 pub(crate) mod comparison;
 pub(crate) mod contact;
 pub(crate) mod domain;
