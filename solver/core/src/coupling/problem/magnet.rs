@@ -15,6 +15,9 @@ use crate::body::{Pose, Wrench};
 /// does below 1.1656, where tan(angle) = 2 angle.
 const NEWTON_ANGLE: f64 = 1.1;
 
+/// Sine of the angle from a moment to the field below which the axis of the torque is rounding.
+const ALIGNED: f64 = 1e-8;
+
 /// A field as a function of time alone (T).
 pub type UniformField = Box<dyn Fn(f64) -> Vector3<f64> + Send + Sync>;
 
@@ -162,7 +165,7 @@ impl Magnet {
         let own = moment / moment.norm();
         let across = torque.norm();
         let restoring = along.max(0.0);
-        let Some(axis) = torque.try_normalize(0.0) else {
+        let Some(axis) = torque.try_normalize(ALIGNED * size) else {
             return (Matrix3::identity() - own * own.transpose()) * restoring;
         };
         let side = axis.cross(&own);

@@ -1,8 +1,8 @@
 //! `Passes`: Anderson's acceleration of the fixed-point iteration for coordinates of bodies (@anderson1965).
 //!
 //! Moving the surface of a soft body changes its load. Where that is more than the body resists, coordinates that are
-//! taken over as they are reached lead away from the solution. Those of the last passes are then combined so that the
-//! same combination of their changes is least.
+//! taken over as they are reached lead away from the solution. From there on those of the last passes are combined so
+//! that the same combination of their changes is least.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -24,6 +24,8 @@ pub struct Passes {
     all: Vec<Pass>,
     /// Change in the first pass.
     first: f64,
+    /// Whether passes are combined: what has grown once grows again where it is let go.
+    combines: bool,
 }
 
 #[derive(Debug)]
@@ -38,7 +40,7 @@ impl Passes {
         let at = DVector::from_column_slice(at);
         let change = DVector::from_column_slice(reached) - &at;
         let (size, last) = (change.norm(), self.all.last().map(|pass| pass.change.norm()));
-        let contracts = last.is_none_or(|last| size <= CONTRACTS * last);
+        self.combines |= last.is_some_and(|last| size > CONTRACTS * last);
         self.all.push(Pass { at, change });
         if self.all.len() == 1 {
             self.first = size;
@@ -49,7 +51,7 @@ impl Passes {
         if size > GROWTH * self.first && size > NOTABLE * self.all[0].at.norm() {
             return None;
         }
-        if contracts { Some(reached.to_vec()) } else { Some(self.combined()) }
+        if self.combines { Some(self.combined()) } else { Some(reached.to_vec()) }
     }
 
     /// The combination of the passes.
