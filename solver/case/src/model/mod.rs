@@ -227,6 +227,9 @@ impl Model {
                 load_factor: None,
                 load_frame: LoadFrame::default(),
                 spring: None,
+                rod: None,
+                attached: None,
+                activation: None,
                 size: swimmer.size,
             });
             self.swimmer_of_bodies.push(index);

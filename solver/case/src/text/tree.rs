@@ -14,7 +14,7 @@ use super::toml_help::toml_help;
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 20] = [
+pub const CHOICES: [&str; 24] = [
     "kind",
     "length",
     "angle",
@@ -35,6 +35,10 @@ pub const CHOICES: [&str; 20] = [
     "fields",
     "series",
     "until",
+    "curvature",
+    "hold",
+    "moment",
+    "rest",
 ];
 
 /// A value and where it is written.
