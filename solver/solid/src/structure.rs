@@ -58,17 +58,6 @@ pub trait Flexible: Structure + std::fmt::Debug {
     fn center_weights(&self) -> Vec<Weight>;
 }
 
-/// A coordinate that is given, and its velocity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Held {
-    /// Which coordinate.
-    pub coordinate: usize,
-    /// Its value.
-    pub value: f64,
-    /// Its velocity (1/s).
-    pub rate: f64,
-}
-
 /// What a coordinate counts in a place, or its velocity in a velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Weight {
