@@ -9,3 +9,4 @@ mod invariance;
 mod joints;
 mod orders;
 mod reciprocity;
+mod rods;

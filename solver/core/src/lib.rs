@@ -15,4 +15,4 @@ pub mod timing;
 pub use alewife_case as case;
 pub use alewife_flow::{flow, space};
 pub use alewife_linear::{algebra, multifrontal};
-pub use alewife_solid::structure;
+pub use alewife_solid::{rod, structure};

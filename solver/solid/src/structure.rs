@@ -56,6 +56,22 @@ pub trait Flexible: Structure + std::fmt::Debug {
 
     /// The centre of the body, as a sum of weights times coordinates.
     fn center_weights(&self) -> Vec<Weight>;
+
+    /// How far the centre has come since time zero (m).
+    fn way_of_center(&self, coordinates: &DVector<f64>) -> Vector3<f64> {
+        weighted(&self.center_weights(), &(coordinates - self.initial()))
+    }
+}
+
+/// A coordinate that is given, and its velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Held {
+    /// Which coordinate.
+    pub coordinate: usize,
+    /// Its value.
+    pub value: f64,
+    /// Its velocity (1/s).
+    pub rate: f64,
 }
 
 /// What a coordinate counts in a place, or its velocity in a velocity.

@@ -9,6 +9,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::structure::Flexible;
 
+/// Roundings of a number that inner forces are made of.
+const ROUNDINGS: f64 = 16.0;
+
 /// The equations of the coordinates of one body.
 #[derive(Debug, Clone)]
 pub struct FlexibleEquation {
@@ -54,6 +57,14 @@ impl FlexibleEquation {
         let coordinates = &self.unmoved + &velocities * self.coefficient;
         let forces = self.body.forces(&coordinates, &velocities, self.time);
         self.body.mass() * (velocities * self.rate + &self.history) + forces
+    }
+
+    /// The rounding of what it lacks: inner forces are differences of large numbers where it is stiff.
+    pub(super) fn rounding(&self, rates: &[f64]) -> DVector<f64> {
+        let velocities = self.own(rates);
+        let coordinates = &self.unmoved + &velocities * self.coefficient;
+        let stiffness = self.body.tangents(&coordinates, &velocities, self.time).stiffness;
+        stiffness.abs() * coordinates.abs() * (ROUNDINGS * f64::EPSILON)
     }
 
     /// How that depends on the rates.

@@ -8,7 +8,7 @@ use nalgebra::{DVector, Vector3};
 use super::deformed_outline::{DeformedOutline, MaterialCurve, RecoilCorrection, ShapeMotion};
 use super::error::GaitError;
 use super::recoil::RecoilMotion;
-use crate::structure::{Flexible, Weight, weighted};
+use crate::structure::{Flexible, Weight};
 
 /// An outline at rest, and what moves its points.
 #[derive(Debug)]
@@ -23,7 +23,7 @@ pub(super) struct CarriedOutline {
     rest: Arc<Spline>,
     body: Arc<dyn Flexible>,
     coordinates: DVector<f64>,
-    /// Where the centre is, seen from where the body started (m).
+    /// Where the body is, seen from where it started (m).
     center: Vector3<f64>,
 }
 
@@ -73,7 +73,7 @@ impl ShapeMotion for FlexibleShape {
         let carried = CarriedOutline {
             rest: Arc::clone(&self.rest),
             body: Arc::clone(&self.body),
-            center: weighted(&self.body.center_weights(), &coordinates),
+            center: self.body.way_of_center(&coordinates),
             coordinates,
         };
         let knots = self.rest.knots();

@@ -3,6 +3,7 @@
 use std::ops::Deref;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, CellQuality, Mesh, NodeId, Point};
+use nalgebra::Vector3;
 
 use super::boundary_condition::{MeshBoundaryCondition, MotionError, mesh_boundary_conditions};
 use super::elliptic::MeshMotion;
@@ -12,7 +13,7 @@ use super::scene::{Meshed, PosesByShift, RemeshError, RestPlace, Scene};
 use super::stiffness::MotionKind;
 use crate::body::{Pose, RigidVector, in_space, on_mesh};
 use crate::contact::Gaps;
-use crate::coupling::{BodyShapes, RestPlaces};
+use crate::coupling::{BodyShapes, RestPlaces, RigidBody, coordinate_ranges};
 use crate::state::State;
 
 /// Quality of a cell over the lowest one of the reference mesh below which no flow is solved on it.
@@ -209,6 +210,26 @@ impl<const D: usize> MovingMesh<D> {
             (one - other).norm() / self.edges[*body]
         };
         self.scene.rest_places(shapes[0]).iter().map(of_node).fold(0.0, f64::max)
+    }
+
+    /// The largest speed (m/s) of a node on a body by rates of the coordinates of all bodies, which have these.
+    #[must_use]
+    pub fn fastest(&self, bodies: &[RigidBody], coordinates: &[f64], rates: &[f64]) -> f64 {
+        let Ok(shapes) = BodyShapes::with(bodies, self.reference_time, coordinates) else {
+            return 0.0;
+        };
+        let own = coordinate_ranges(bodies);
+        let speed = |RestPlace { body, place, .. }: &RestPlace| {
+            let weights = shapes.deformed(*body).map(|deformed| deformed.weights(place));
+            let first = own[*body].start;
+            let velocity: Vector3<f64> = weights
+                .unwrap_or_default()
+                .iter()
+                .map(|at| at.weight * rates[first + at.coordinate])
+                .sum();
+            velocity.norm()
+        };
+        self.scene.rest_places(&shapes).iter().map(speed).fold(0.0, f64::max)
     }
 
     /// Where nodes on bodies with coordinates are at rest (m).

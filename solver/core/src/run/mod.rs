@@ -27,7 +27,7 @@ pub use build::{BodyRecoil, build_problem, motion_settings, recoils, shape_motio
 pub use case_mesh::{CaseMesh, Dimension, InitialMesh, build_mesh};
 pub use error::RunError;
 pub use excess::Excess;
-pub use prepare::simulation_on;
+pub use prepare::{simulation_on, simulation_with};
 pub use reports::{CycleReport, StepErrorReport};
 pub use resume::{Reference, ResumeError, SavedState, VERSION as STATE_VERSION};
 pub use run::RunSummary;

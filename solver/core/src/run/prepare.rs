@@ -39,7 +39,7 @@ where
     check_memory(mesh)?;
     let images = |mesh: &Mesh<D>| Dimension::<D>::images(&model.case, mesh);
     let mut measure = Measure::new(model, mesh, &images(mesh))?;
-    let mut simulation = at_rest(model, initial, timing)?;
+    let mut simulation = at_rest(model, initial, timing, |_| Ok(()))?;
     log_recoils(&simulation.problem)?;
     if let Some(saved) = saved {
         saved.restore_into(&model.case, &mut simulation, |problem, reference| {
@@ -64,7 +64,21 @@ pub fn simulation_on<const D: usize>(
 where
     Dimension<D>: CaseMesh<D>,
 {
-    at_rest(model, Dimension::<D>::adopt(model, mesh)?, Timing::default())
+    at_rest(model, Dimension::<D>::adopt(model, mesh)?, Timing::default(), |_| Ok(()))
+}
+
+/// A simulation of a case at rest whose problem is changed before it begins.
+///
+/// # Errors
+/// When the case makes no mesh or problem, or `change` fails.
+pub fn simulation_with<const D: usize>(
+    model: &Model,
+    change: impl FnOnce(&mut Problem<D>) -> Result<(), RunError>,
+) -> Result<Simulation<D>, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    at_rest(model, Dimension::<D>::generate(model)?, Timing::default(), change)
 }
 
 /// Tells what is subtracted from the gaits of the bodies that deform.
@@ -95,10 +109,12 @@ fn at_rest<const D: usize>(
     model: &Model,
     initial: InitialMesh<D>,
     mut timing: Timing,
+    change: impl FnOnce(&mut Problem<D>) -> Result<(), RunError>,
 ) -> Result<Simulation<D>, RunError> {
     let case = &model.case;
     let InitialMesh { mesh, shifts, make_moving } = initial;
-    let problem = build_problem(model, &mesh)?;
+    let mut problem = build_problem(model, &mesh)?;
+    change(&mut problem)?;
     let scheme = step_scheme(case, &problem);
     let state = State::at_rest(&problem, mesh).with_image_shifts(shifts);
     let poses = state.in_mesh(&state.poses);

@@ -49,6 +49,9 @@ pub enum StepError {
         /// Iterations made.
         iterations: usize,
     },
+    /// Coordinates go away from where body and flow agree.
+    #[error("where bodies bend and the flow differ by more from iteration to iteration")]
+    PosesDiverge,
 }
 
 impl From<ShapeError> for StepError {

@@ -89,6 +89,7 @@ impl<const D: usize> StepHistory<D> {
             .transpose()?;
         let extrapolated = extrapolate(state, &step);
         let held = problem.held_coordinates(time);
+        let inertial = f64::from(u8::from(problem.has_inertia));
         let coordinates = integrate_coordinates(state, &step, &held, &extrapolated.rates);
         let rates = state.now.rates.iter().zip(&state.previous.rates);
         let older = |time: f64, poses: &[Pose], twists: &[Twist]| {
@@ -106,7 +107,9 @@ impl<const D: usize> StepHistory<D> {
             unmoved: stepper.unmoved_poses(state, &step),
             unmoved_coordinates: unmoved_coordinates(state, &step, &held),
             held,
-            coordinate_derivative: rates.map(|(now, before)| bdf.history(*now, *before)).collect(),
+            coordinate_derivative: rates
+                .map(|(now, before)| inertial * bdf.history(*now, *before))
+                .collect(),
             older: Some([
                 older(state.time, &state.poses, &state.now.twists)?,
                 older(state.time_before(), &state.previous_poses, &state.previous.twists)?,
@@ -191,7 +194,7 @@ impl<const D: usize> StepHistory<D> {
             Some(FlexibleEquation {
                 first: own.start,
                 body: Arc::clone(body.flexible()?),
-                rate: bdf.next,
+                rate: if problem.has_inertia { bdf.next } else { 0.0 },
                 history: DVector::from_column_slice(&self.coordinate_derivative[own.clone()]),
                 unmoved: DVector::from_column_slice(&self.unmoved_coordinates[own]),
                 coefficient: 1.0 / bdf.next,

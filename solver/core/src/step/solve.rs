@@ -5,7 +5,7 @@ use super::context::{Guess, Iterate, StepContext};
 use super::coupled_flow::{CoupledFlow, FlowUnderLoads};
 use super::error::StepError;
 use super::newton::{Criterion, Flow, newton};
-use super::placement::Placement;
+use super::placement::{Passes, Placement};
 use super::workspace::Workspace;
 use crate::contact::{ByMobility, ByQuasiNewton, ContactLoads, CoupledSolver};
 
@@ -70,14 +70,20 @@ impl<const D: usize> StepContext<'_, D> {
     }
 
     /// What the next iteration for the poses starts from.
+    ///
+    /// # Errors
+    /// When coordinates go away from a solution, or give a body no shape.
     pub fn iterate_again(
         &self,
         configuration: StepConfiguration<D>,
         flow: CoupledFlow<D>,
         reached: Placement,
-    ) -> Iterate<D> {
+        passes: &mut Passes,
+    ) -> Result<Iterate<D>, StepError> {
         let CoupledFlow { solution, scale, n_systems, .. } = flow;
         let guess = Guess { solution, scale: Some(scale), n_systems };
-        Iterate { placement: reached, apart: configuration.placement.poses, guess }
+        let solved_at = configuration.placement;
+        let placement = self.next_placement(&solved_at, reached, passes)?;
+        Ok(Iterate { placement, apart: solved_at.poses, guess })
     }
 }

@@ -12,6 +12,7 @@
 
 use super::context::StepContext;
 use super::error::StepError;
+use super::placement::Passes;
 use super::stepper::{StepResult, TimeStepper};
 use super::workspace::Workspace;
 use crate::state::State;
@@ -34,6 +35,7 @@ impl<const D: usize> TimeStepper<'_, D> {
     ) -> Result<StepResult<D>, StepError> {
         let step = StepContext::new(*self, state, bdf)?;
         let mut contact = step.contact_method(work);
+        let mut passes = Passes::default();
         let mut iterate = step.predict(work)?;
         for _ in 0..MAX_POSE_ITERATIONS {
             self.check_stop(state)?;
@@ -44,7 +46,7 @@ impl<const D: usize> TimeStepper<'_, D> {
             if self.path.has_converged(&configuration.placement, &reached, &flow.contact) {
                 return step.finish(work, &configuration, flow, reached);
             }
-            iterate = step.iterate_again(configuration, flow, reached);
+            iterate = step.iterate_again(configuration, flow, reached, &mut passes)?;
         }
         Err(StepError::PosesNotConverged { iterations: MAX_POSE_ITERATIONS })
     }

@@ -107,6 +107,15 @@ impl RigidBody {
         Self { drives: [const { Drive::Free }; 6], ..self }
     }
 
+    /// The same body with a shape that follows coordinates of its own, which have its mass; weight and loads act at
+    /// its centre.
+    #[must_use]
+    pub fn with_coordinates(self, shape: Arc<dyn ShapeMotion>) -> Self {
+        let drives =
+            Mode::ALL.map(|mode| if mode.is_rotation() { Drive::Held } else { Drive::Free });
+        Self { drives, inertia: Inertia::default(), shape: Some(shape), ..self }
+    }
+
     /// What has coordinates beside the pose, if anything has.
     #[must_use]
     pub fn flexible(&self) -> Option<&Arc<dyn Flexible>> {

@@ -23,7 +23,7 @@ pub use side::{Side, VelocityProfile};
 use crate::body::{Mode, Modes, Pose, Twist, on_mesh};
 use crate::flow::{BodyForce, Convection};
 use crate::space::Metric;
-use crate::structure::{Held, weighted};
+use crate::structure::Held;
 
 /// Everything that is given.
 pub struct Problem<const D: usize> {
@@ -95,14 +95,30 @@ impl<const D: usize> Problem<D> {
         bodies.flat_map(held).collect()
     }
 
-    /// Puts bodies with coordinates where their centres are by these of all bodies.
+    /// Kinetic energy (J) of a body by the rates of its coordinates among those of all bodies; zero of a rigid one.
+    #[must_use]
+    pub fn kinetic_energy_of_coordinates(&self, body: usize, rates: &[f64]) -> f64 {
+        let Some(flexible) = self.bodies[body].flexible() else { return 0.0 };
+        let rates = DVector::from_column_slice(&rates[self.coordinates()[body].clone()]);
+        0.5 * rates.dot(&(flexible.mass() * &rates))
+    }
+
+    /// Elastic energy (J) of a body at a time (s) with its coordinates among these of all bodies; zero of a rigid one.
+    #[must_use]
+    pub fn elastic_energy(&self, body: usize, coordinates: &[f64], time: f64) -> f64 {
+        let Some(flexible) = self.bodies[body].flexible() else { return 0.0 };
+        let own = DVector::from_column_slice(&coordinates[self.coordinates()[body].clone()]);
+        flexible.elastic_energy(&own, time)
+    }
+
+    /// Puts bodies with coordinates as far from where they started as these of all bodies have their centres.
     pub fn follow_coordinates(&self, poses: &mut [Pose], coordinates: &[f64]) {
         let bodies = self.bodies.iter().zip(self.coordinates());
         for ((body, own), pose) in bodies.zip(poses) {
             let Some(flexible) = body.flexible() else { continue };
             let own = DVector::from_column_slice(&coordinates[own]);
-            let center = weighted(&flexible.center_weights(), &own);
-            pose.center = body.pose.center + body.pose.to_world(&center);
+            let way = flexible.way_of_center(&own);
+            pose.center = body.pose.center + body.pose.to_world(&way);
         }
     }
 

@@ -10,6 +10,7 @@ mod mobility;
 mod nullspace;
 mod numbering;
 mod refine;
+mod residual;
 mod rigid_unknowns;
 mod solver_memory;
 
@@ -35,7 +36,7 @@ use super::solution::Solution;
 use super::surface::RestPlaces;
 use crate::algebra::{Accuracy, AffineConstraints, SolverMemory, SparseMatrix, Unknowns};
 use crate::body::{Modes, Pose};
-use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
+use crate::flow::{Assembly, Convection, FlowTerms, assemble};
 use crate::space::{DofLayout, FacetRule, Tables};
 use crate::timing::{Stage, Timing};
 
@@ -278,48 +279,6 @@ impl<const D: usize> FluidSystem<D> {
         if problem.mean_flow.is_some() {
             self.cell = Some(CellIntegrals::new(problem, mesh, self.assembly.tables()));
         }
-    }
-
-    /// The raw residual of the fluid's equations at a solution.
-    #[must_use]
-    pub fn fluid_residual(
-        &self,
-        at: &Configuration<'_, D>,
-        terms: &FlowTerms<'_, D>,
-        solution: &Solution<D>,
-    ) -> Vec<f64> {
-        let mut raw = residual(&self.assembly, at.mesh, terms, &solution.fields());
-        if let Some(cell) = &self.cell {
-            let force = solution.pressure_gradient - at.mean_flow.body_force;
-            cell.add(&self.layout, self.modes, [&force, &Point::<D>::zeros()], &mut raw);
-        }
-        raw
-    }
-
-    /// P^T R: the residual of fluid and bodies on the free unknowns, from that of the fluid.
-    #[must_use]
-    pub fn reduced_residual(
-        &self,
-        at: &Configuration<'_, D>,
-        solution: &Solution<D>,
-        fluid: &[f64],
-    ) -> Vec<f64> {
-        let mut raw = fluid.to_vec();
-        if at.problem.is_enclosed() {
-            self.pressure.make_compatible(&mut raw[self.layout.pressures()]);
-        }
-        let row = |body: usize, position: usize| self.layout.rigid(body, position);
-        at.bodies.add_residual(&solution.twists, self.modes, row, &mut raw);
-        for equation in &at.bodies.flexible {
-            for (own, lack) in equation.residual(&solution.rates).iter().enumerate() {
-                raw[self.layout.rate(equation.first + own)] += lack;
-            }
-        }
-        if let Some(cell) = &self.cell {
-            let force = solution.pressure_gradient;
-            cell.add(&self.layout, self.modes, [&Point::<D>::zeros(), &force], &mut raw);
-        }
-        at.constraints.restrict(&raw)
     }
 
     /// One Newton step: assembles and factorises the Jacobian at `solution` and returns the next

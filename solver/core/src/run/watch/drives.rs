@@ -259,6 +259,7 @@ impl<const D: usize> Simulation<D> {
         let Self { problem, state, .. } = self;
         let of_body = |(index, body): (usize, &RigidBody)| {
             body.inertia.kinetic_energy(&state.poses[index], &state.now.twists[index])
+                + problem.kinetic_energy_of_coordinates(index, &state.now.rates)
         };
         let (bodies, counted) = (problem.bodies.iter().enumerate(), self.counted());
         bodies.filter(|(index, _)| counted[*index]).map(of_body).sum()
@@ -279,6 +280,7 @@ impl<const D: usize> Simulation<D> {
                 let way = state.poses[index].displacement_from(&spring.rest);
                 energy += 0.5 * spring.stiffness.component_mul(&way).dot(&way);
             }
+            energy += problem.elastic_energy(index, &state.shapes.now, state.time);
         }
         let no_loads = SurfaceLoads::none(problem.bodies.len()).bodies;
         for joint in measure_joints(problem, state, &no_loads)? {

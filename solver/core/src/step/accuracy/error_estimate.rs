@@ -50,7 +50,23 @@ pub(in crate::step) fn local_error<const D: usize>(
             largest = largest.max(stepper.path.length_of(body, mode) * off.abs());
         }
     }
+    largest = largest.max(stepper.error_of_rates(state, step, new));
     bdf.error_share() * largest / scale
+}
+
+impl<const D: usize> TimeStepper<'_, D> {
+    /// Largest difference (m/s) on bodies with coordinates between the velocity that their rates give and a prediction.
+    fn error_of_rates(&self, state: &State<D>, step: &Step, new: &Solution<D>) -> f64 {
+        let Some(moving) = self.path.moving_mesh().filter(|_| !new.rates.is_empty()) else {
+            return 0.0;
+        };
+        let levels = state.now.rates.iter().zip(&state.previous.rates);
+        let levels = levels.zip(&state.shapes.accelerations).zip(&new.rates);
+        let off: Vec<f64> = levels
+            .map(|(((now, before), rate), new)| new - step.bdf.predict(*now, *before, *rate))
+            .collect();
+        moving.fastest(&self.problem.bodies, &state.shapes.now, &off)
+    }
 }
 
 /// Estimate of the errors of the poses that a step of BDF2 leads to.

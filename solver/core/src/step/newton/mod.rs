@@ -203,7 +203,8 @@ pub(super) fn newton<const D: usize>(
             return Ok(Flow { solution, residual, iterations, scale: progress.scale() });
         }
         let reduced = system.reduced_residual(at, &solution, &residual);
-        let relative = progress.relative(&reduced, system.mean_force(&solution));
+        let size = system.largest_lack(at, &solution, &reduced);
+        let relative = progress.relative(size, system.mean_force(&solution));
         equations.on_iteration(iterations, relative);
         let scale = progress.scale();
         if progress.is_converged(relative) && system.meets_mean_velocity(at, &solution) {
@@ -235,11 +236,6 @@ pub(super) fn newton<const D: usize>(
     }
 }
 
-/// The largest size of an entry.
-fn largest(residual: &[f64]) -> f64 {
-    residual.iter().fold(0.0, |most, value| most.max(value.abs()))
-}
-
 /// How the residual has fallen so far.
 struct Progress<'a> {
     criterion: &'a Criterion,
@@ -262,10 +258,8 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The largest entry of a residual relative to the scale; `mean_force` is the largest one of the mean
-    /// pressure gradient.
-    fn relative(&mut self, reduced: &[f64], mean_force: f64) -> f64 {
-        let size = largest(reduced);
+    /// The size of a residual relative to the scale; `mean_force` is the largest entry of the mean pressure gradient.
+    fn relative(&mut self, size: f64, mean_force: f64) -> f64 {
         // A fluid at rest has no residual where a mean velocity is given: the force that brings it
         // about is the measure then
         let scale = match self.scale {

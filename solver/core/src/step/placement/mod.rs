@@ -1,5 +1,8 @@
 //! `Placement`: where bodies get to in a step, poses and coordinates, with the shapes they have there.
 
+mod anderson;
+
+pub use self::anderson::Passes;
 use super::context::StepContext;
 use super::error::StepError;
 use crate::body::Pose;
@@ -39,5 +42,23 @@ impl<const D: usize> StepContext<'_, D> {
     pub fn integrate(&self, solution: &Solution<D>) -> Result<Placement, StepError> {
         let coordinates = self.history.coordinates_with(self.state, &solution.rates);
         self.placement(self.integrated_poses(&solution.twists), coordinates)
+    }
+
+    /// Where bodies are in the next pass after one for a placement has reached another one.
+    ///
+    /// # Errors
+    /// When passes grow, or a body has no shape there.
+    pub fn next_placement(
+        &self,
+        solved_at: &Placement,
+        reached: Placement,
+        passes: &mut Passes,
+    ) -> Result<Placement, StepError> {
+        if reached.coordinates.is_empty() {
+            return Ok(reached);
+        }
+        let next = passes.next(&solved_at.coordinates, &reached.coordinates);
+        let coordinates = next.ok_or(StepError::PosesDiverge)?;
+        self.placement(reached.poses, coordinates)
     }
 }

@@ -1,0 +1,71 @@
+//! The residual of fluid and bodies, raw and on the free unknowns.
+
+use alewife_mesh::Point;
+
+use super::super::solution::Solution;
+use super::{Configuration, FluidSystem};
+use crate::flow::{FlowTerms, residual};
+
+impl<const D: usize> FluidSystem<D> {
+    /// The raw residual of the fluid's equations at a solution.
+    #[must_use]
+    pub fn fluid_residual(
+        &self,
+        at: &Configuration<'_, D>,
+        terms: &FlowTerms<'_, D>,
+        solution: &Solution<D>,
+    ) -> Vec<f64> {
+        let mut raw = residual(&self.assembly, at.mesh, terms, &solution.fields());
+        if let Some(cell) = &self.cell {
+            let force = solution.pressure_gradient - at.mean_flow.body_force;
+            cell.add(&self.layout, self.modes, [&force, &Point::<D>::zeros()], &mut raw);
+        }
+        raw
+    }
+
+    /// P^T R: the residual of fluid and bodies on the free unknowns, from that of the fluid.
+    #[must_use]
+    pub fn reduced_residual(
+        &self,
+        at: &Configuration<'_, D>,
+        solution: &Solution<D>,
+        fluid: &[f64],
+    ) -> Vec<f64> {
+        let mut raw = fluid.to_vec();
+        if at.problem.is_enclosed() {
+            self.pressure.make_compatible(&mut raw[self.layout.pressures()]);
+        }
+        let row = |body: usize, position: usize| self.layout.rigid(body, position);
+        at.bodies.add_residual(&solution.twists, self.modes, row, &mut raw);
+        for equation in &at.bodies.flexible {
+            for (own, lack) in equation.residual(&solution.rates).iter().enumerate() {
+                raw[self.layout.rate(equation.first + own)] += lack;
+            }
+        }
+        if let Some(cell) = &self.cell {
+            let force = solution.pressure_gradient;
+            cell.add(&self.layout, self.modes, [&Point::<D>::zeros(), &force], &mut raw);
+        }
+        at.constraints.restrict(&raw)
+    }
+
+    /// The largest size of a reduced residual at a solution; in rows of coordinates what is beyond their rounding.
+    #[must_use]
+    pub fn largest_lack(
+        &self,
+        at: &Configuration<'_, D>,
+        solution: &Solution<D>,
+        reduced: &[f64],
+    ) -> f64 {
+        let mut sizes: Vec<f64> = reduced.iter().map(|value| value.abs()).collect();
+        for equation in &at.bodies.flexible {
+            let rounding = equation.rounding(&solution.rates);
+            for (own, rounding) in rounding.iter().enumerate() {
+                if let Some(row) = at.constraints.unknown(self.layout.rate(equation.first + own)) {
+                    sizes[row] = (sizes[row] - rounding).max(0.0);
+                }
+            }
+        }
+        sizes.into_iter().fold(0.0, f64::max)
+    }
+}
