@@ -22,10 +22,6 @@ pub struct RodSpec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub young: Option<f64>,
-    /// Stiffness in twist (N m2); two thirds of that in bending if absent, as of incompressible round sections.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(with = "Option<Positive>", extend("geometries" = ["spatial"])))]
-    pub twisting: Option<f64>,
     /// Tension over stretch (N; N/m planar); 1e7 times bending stiffness over squared length if absent, which keeps the
     /// length.
     #[serde(default, skip_serializing_if = "Option::is_none")]

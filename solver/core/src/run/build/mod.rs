@@ -3,6 +3,7 @@
 mod bodies;
 mod joints;
 mod motion_settings;
+mod rod;
 mod shape_motion;
 mod sides;
 mod sizing;
@@ -13,6 +14,7 @@ use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 use self::bodies::rigid_body;
 use self::joints::add_joint;
 pub use self::motion_settings::motion_settings;
+pub(super) use self::rod::rod_shape;
 pub use self::shape_motion::{BodyRecoil, recoils, shape_motion};
 use self::sides::side;
 pub(super) use self::sizing::limits;
