@@ -166,6 +166,15 @@ pub(super) fn constrain_rigid_velocities<const D: usize>(
             }
         }
     }
+    for at in problem.attached_coordinates() {
+        let [linear, angular] = at.given.row(&problem.bodies[at.own].pose, &poses[at.to]);
+        let term = |(position, mode): (usize, Mode)| {
+            let of = if mode.is_rotation() { &angular } else { &linear };
+            Term { unknown: raw(at.to, position), weight: of[mode.axis()] }
+        };
+        let terms = modes.iter().enumerate().map(term).collect();
+        builder.constrain(layout.rate(at.coordinate), terms, 0.0);
+    }
     for Held { coordinate, rate, .. } in problem.held_coordinates(time) {
         builder.fix(layout.rate(coordinate), rate);
     }

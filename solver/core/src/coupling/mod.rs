@@ -31,9 +31,10 @@ pub use loads::{
 };
 pub use mean_flow::MeanFlowReport;
 pub use problem::{
-    Arm, Drive, Group, Joint, JointLaw, Length, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue,
-    Pivot, Problem, RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile,
-    angle_about, coordinate_ranges, second_moments,
+    Arm, AttachedCoordinate, Attachment, BodyVector, Drive, Group, Joint, JointLaw, Length,
+    MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue, OnBody, Pivot, Problem, RateDiscontinuities,
+    RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile, angle_about, coordinate_ranges,
+    second_moments,
 };
 pub use projection::DivergenceFreeProjection;
 pub use rigid_equations::{

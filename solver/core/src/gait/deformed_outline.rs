@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, Vector3};
 use super::closed_surface::on_outline;
 
 use super::error::GaitError;
-use super::flexible_shape::CarriedOutline;
+use super::flexible::CarriedOutline;
 use super::recoil::RecoilMotion;
 use crate::structure::{Flexible, Weight};
 

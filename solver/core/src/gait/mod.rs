@@ -4,7 +4,7 @@ mod closed_curve;
 mod closed_surface;
 mod deformed_outline;
 mod error;
-mod flexible_shape;
+mod flexible;
 mod grid;
 mod hull;
 mod midline;
@@ -21,7 +21,7 @@ mod tests;
 
 pub use deformed_outline::{DeformedOutline, MaterialPoint, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;
-pub use flexible_shape::FlexibleShape;
+pub use flexible::FlexibleShape;
 pub use midline::{AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline};
 pub use pulse::{Pulse, PulseLaw};
 pub use recoil::RecoilMotion;

@@ -10,7 +10,7 @@ use super::resume::SavedState;
 use super::simulation::{Simulation, fluid_system};
 use super::start::{check_memory, step_scheme};
 use super::step_control::StepControl;
-use crate::case::Model;
+use crate::case::{Case, Model, Scheme, TimeSettings};
 use crate::coupling::{Problem, ShapeError};
 use crate::state::State;
 use crate::step::Workspace;
@@ -105,6 +105,34 @@ fn log_recoils<const D: usize>(problem: &Problem<D>) -> Result<(), RunError> {
     Ok(())
 }
 
+/// Refuses what bodies with coordinates cannot be beside yet.
+fn check_coordinates<const D: usize>(case: &Case, problem: &Problem<D>) -> Result<(), RunError> {
+    if problem.n_coordinates() == 0 {
+        return Ok(());
+    }
+    let is_explicit = matches!(
+        &case.time,
+        TimeSettings::Unsteady(settings) if settings.scheme == Scheme::Rk3
+    );
+    let refused = [
+        (D == 3, "in space yet", "take geometry = \"planar\""),
+        (is_explicit, "by explicit steps", "write time.unsteady.scheme = \"bdf2\""),
+        (case.contact.is_some(), "beside contact yet", "leave out [contact]"),
+        (problem.has_joints(), "beside joints yet", "leave out [[joint]]"),
+        (
+            problem.free_translations().contains(&true),
+            "where nothing holds fluid and bodies",
+            "let a side be a wall, or take fluid.model = \"unsteady-stokes\"",
+        ),
+    ];
+    match refused.iter().find(|(is_so, ..)| *is_so) {
+        Some((_, what, remedy)) => {
+            Err(RunError::Unsupported(format!("bodies cannot be rods {what}: {remedy}")))
+        }
+        None => Ok(()),
+    }
+}
+
 fn at_rest<const D: usize>(
     model: &Model,
     initial: InitialMesh<D>,
@@ -115,6 +143,7 @@ fn at_rest<const D: usize>(
     let InitialMesh { mesh, shifts, make_moving } = initial;
     let mut problem = build_problem(model, &mesh)?;
     change(&mut problem)?;
+    check_coordinates(case, &problem)?;
     let scheme = step_scheme(case, &problem);
     let state = State::at_rest(&problem, mesh).with_image_shifts(shifts);
     let poses = state.in_mesh(&state.poses);

@@ -10,7 +10,8 @@ use super::error::StepError;
 use super::stepper::{Step, TimeStepper};
 use crate::body::{Inertia, Pose, RigidVector, Twist, carried_velocity};
 use crate::coupling::{
-    BodyShapes, FlexibleEquation, PosesByVelocity, Problem, RigidBody, RigidBodyEquations, Solution,
+    AttachedCoordinate, BodyShapes, FlexibleEquation, PosesByVelocity, Problem, RigidBody,
+    RigidBodyEquations, Solution,
 };
 use crate::state::State;
 use crate::structure::Held;
@@ -177,7 +178,7 @@ impl<const D: usize> StepHistory<D> {
             });
             equation.history = bdf.history(now, before);
         }
-        equations.flexible = self.flexible_equations(problem);
+        equations.flexible = self.flexible_equations(problem, poses);
         let unmoved = &self.unmoved;
         let reached = PosesByVelocity { unmoved, expected: poses, coefficient: 1.0 / bdf.next };
         equations.add_loads(problem, time, reached);
@@ -187,8 +188,9 @@ impl<const D: usize> StepHistory<D> {
 
 impl<const D: usize> StepHistory<D> {
     /// The equations of the coordinates of bodies at the new time.
-    fn flexible_equations(&self, problem: &Problem<D>) -> Vec<FlexibleEquation> {
+    fn flexible_equations(&self, problem: &Problem<D>, poses: &[Pose]) -> Vec<FlexibleEquation> {
         let Step { time, bdf, .. } = self.step;
+        let unmoved = self.unmoved_with(problem, poses);
         let bodies = problem.bodies.iter().zip(problem.coordinates());
         let equation = |(body, own): (&RigidBody, Range<usize>)| {
             Some(FlexibleEquation {
@@ -196,12 +198,26 @@ impl<const D: usize> StepHistory<D> {
                 body: Arc::clone(body.flexible()?),
                 rate: if problem.has_inertia { bdf.next } else { 0.0 },
                 history: DVector::from_column_slice(&self.coordinate_derivative[own.clone()]),
-                unmoved: DVector::from_column_slice(&self.unmoved_coordinates[own]),
+                unmoved: DVector::from_column_slice(&unmoved[own]),
                 coefficient: 1.0 / bdf.next,
                 time,
             })
         };
         bodies.filter_map(equation).collect()
+    }
+
+    /// Coordinates from which the rates at the new time lead there, with bodies expected at poses to which some are fixed.
+    fn unmoved_with(&self, problem: &Problem<D>, poses: &[Pose]) -> Vec<f64> {
+        let mut unmoved = self.unmoved_coordinates.clone();
+        let rate = self.step.bdf.next;
+        for AttachedCoordinate { coordinate, own, to, given } in problem.attached_coordinates() {
+            let (seen_from, pose) = (&problem.bodies[own].pose, &poses[to]);
+            // The velocity that leads to the pose
+            let twist = Twist::from_vector(&(pose.displacement_from(&self.unmoved[to]) * rate));
+            let way = given.rate(seen_from, pose, &twist) / rate;
+            unmoved[coordinate] = given.value(seen_from, pose) - way;
+        }
+        unmoved
     }
 
     /// Coordinates at the new time with these rates there.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use alewife_mesh::{BoundaryId, Moments, SecondMoments};
 use nalgebra::{Matrix3, Vector3};
 
+use super::attachment::Attachment;
 use super::in_time::TimeValue;
 use super::joint::Joint;
 use crate::body::{Inertia, Mode, Pose, RigidVector, Wrench};
@@ -74,6 +75,8 @@ pub struct RigidBody {
     pub gait: Option<Box<dyn Gait>>,
     /// How its outline deforms: in time, or with coordinates of its own, whose rates are further unknowns.
     pub shape: Option<Arc<dyn ShapeMotion>>,
+    /// What of its coordinates is fixed to another body.
+    pub attachment: Option<Attachment>,
     /// The joint by which it hangs on another body; its pose and velocity follow from it, but for the
     /// rotation in a free pivot.
     pub joint: Option<Joint>,
@@ -97,6 +100,7 @@ impl RigidBody {
             spring: None,
             gait: None,
             shape: None,
+            attachment: None,
             joint: None,
         }
     }

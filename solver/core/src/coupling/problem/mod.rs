@@ -1,5 +1,6 @@
 //! `Problem`: what never changes during a run: fluid, sides of the domain, bodies.
 
+mod attachment;
 mod body;
 mod group;
 mod in_time;
@@ -12,6 +13,7 @@ use std::ops::Range;
 use alewife_mesh::{BoundaryId, Point};
 use nalgebra::{DVector, Matrix6};
 
+pub use attachment::{Attachment, BodyVector, OnBody};
 pub use body::{Drive, RigidBody, Spring, second_moments};
 pub use group::Group;
 pub use in_time::{MovingValue, RateDiscontinuities, TimeValue};
@@ -93,6 +95,32 @@ impl<const D: usize> Problem<D> {
             held.into_iter().map(numbered).collect::<Vec<_>>()
         };
         bodies.flat_map(held).collect()
+    }
+
+    /// Gives coordinates of bodies that are fixed to others, among these of all bodies, what they are with bodies at poses.
+    pub fn follow_attachments(&self, poses: &[Pose], coordinates: &mut [f64]) {
+        for AttachedCoordinate { coordinate, own, to, given } in self.attached_coordinates() {
+            coordinates[coordinate] = given.value(&self.bodies[own].pose, &poses[to]);
+        }
+    }
+
+    /// Coordinates of bodies that are fixed to others.
+    #[must_use]
+    pub fn attached_coordinates(&self) -> Vec<AttachedCoordinate> {
+        let bodies = self.bodies.iter().enumerate().zip(self.coordinates());
+        let of_body = |((own, body), range): ((usize, &RigidBody), Range<usize>)| {
+            let attachment = body.attachment.clone();
+            let to = attachment.as_ref().map_or(own, |attachment| attachment.to);
+            let all = attachment.map(|attachment| attachment.coordinates).unwrap_or_default();
+            let numbered = move |given: OnBody| AttachedCoordinate {
+                coordinate: range.start + given.coordinate,
+                own,
+                to,
+                given,
+            };
+            all.into_iter().map(numbered)
+        };
+        bodies.flat_map(of_body).collect()
     }
 
     /// Kinetic energy (J) of a body by the rates of its coordinates among those of all bodies; zero of a rigid one.
@@ -240,10 +268,13 @@ impl<const D: usize> Problem<D> {
         self.bodies.iter().any(|body| body.joint.is_some())
     }
 
-    /// Pairs of bodies that share a pivot.
+    /// Pairs of bodies that share a pivot, or of which one is fixed to the other.
     #[must_use]
     pub fn pairs_on_pivots(&self) -> Vec<[usize; 2]> {
         let pair = |(child, body): (usize, &RigidBody)| {
+            if let Some(attachment) = &body.attachment {
+                return Some([attachment.to, child]);
+            }
             let joint = body.joint.as_ref().filter(|joint| joint.arm.is_none())?;
             Some([joint.parent, child])
         };
@@ -260,6 +291,19 @@ impl<const D: usize> Problem<D> {
             (true, true) => Convection::NewtonInFrame,
         }
     }
+}
+
+/// A coordinate of a body that is fixed to another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AttachedCoordinate {
+    /// Its number among those of all bodies.
+    pub coordinate: usize,
+    /// The body it is of.
+    pub own: usize,
+    /// The body it is fixed to.
+    pub to: usize,
+    /// What it is.
+    pub given: OnBody,
 }
 
 /// Coordinates of all these bodies at time zero.

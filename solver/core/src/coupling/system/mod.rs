@@ -17,8 +17,7 @@ mod solver_memory;
 use alewife_mesh::{Mesh, Point};
 
 use self::nullspace::TranslationNullspace;
-use self::numbering::{Numbering, free_velocities};
-use self::rigid_unknowns::blocks_of_bodies;
+use self::numbering::{Numbering, blocks_of_bodies, free_velocities};
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;

@@ -1,6 +1,9 @@
 //! `Numbering`: what the unknowns of a linear system were numbered for.
 
+use std::ops::Range;
+
 use super::super::linear_system::SolverChoice;
+use super::super::problem::Problem;
 use crate::algebra::AffineConstraints;
 use crate::body::Modes;
 use crate::space::DofLayout;
@@ -25,4 +28,21 @@ pub(super) fn free_velocities<const D: usize>(
 ) -> Vec<bool> {
     let raw = (0..n_bodies).flat_map(|body| (0..modes.len()).map(move |mode| (body, mode)));
     raw.map(|(body, mode)| constraints.unknown(layout.rigid(body, mode)).is_some()).collect()
+}
+
+/// The unknowns that rates of the coordinates of each body depend on, which couple with each other.
+pub(super) fn blocks_of_bodies<const D: usize>(
+    problem: &Problem<D>,
+    layout: &DofLayout<D>,
+    constraints: &AffineConstraints,
+) -> Vec<Vec<u32>> {
+    let ranges = problem.coordinates().into_iter().filter(|own| !own.is_empty());
+    let block = |own: Range<usize>| {
+        let rows = own.flat_map(|coordinate| constraints.row(layout.rate(coordinate)));
+        let mut unknowns: Vec<u32> = rows.map(|term| term.unknown).collect();
+        unknowns.sort_unstable();
+        unknowns.dedup();
+        unknowns
+    };
+    ranges.map(block).collect()
 }

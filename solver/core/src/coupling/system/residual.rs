@@ -49,7 +49,8 @@ impl<const D: usize> FluidSystem<D> {
         at.constraints.restrict(&raw)
     }
 
-    /// The largest size of a reduced residual at a solution; in rows of coordinates what is beyond their rounding.
+    /// The largest size of a reduced residual at a solution; what coordinates have in it counts
+    /// beyond its rounding.
     #[must_use]
     pub fn largest_lack(
         &self,
@@ -61,8 +62,9 @@ impl<const D: usize> FluidSystem<D> {
         for equation in &at.bodies.flexible {
             let rounding = equation.rounding(&solution.rates);
             for (own, rounding) in rounding.iter().enumerate() {
-                if let Some(row) = at.constraints.unknown(self.layout.rate(equation.first + own)) {
-                    sizes[row] = (sizes[row] - rounding).max(0.0);
+                for term in at.constraints.row(self.layout.rate(equation.first + own)) {
+                    let size = &mut sizes[term.unknown as usize];
+                    *size = (*size - term.weight.abs() * rounding).max(0.0);
                 }
             }
         }

@@ -1,19 +1,16 @@
 //! Velocities of bodies in the linear system: their equations, and which of them are unknowns.
 
-use std::ops::Range;
-
 use alewife_mesh::Mesh;
 
 use super::super::constrain::BodiesAt;
 use super::super::linear_system::{NewSystem, saddle_point, system_solver};
 use super::super::problem::{Drive, Problem};
 use super::super::shapes::BodyShapes;
-use super::numbering::free_velocities;
+use super::numbering::{blocks_of_bodies, free_velocities};
 use super::{Configuration, FluidSystem};
 use crate::algebra::{AffineConstraints, Term};
 use crate::body::Pose;
 use crate::flow::Assembly;
-use crate::space::DofLayout;
 
 impl<const D: usize> FluidSystem<D> {
     /// Makes the system one for these constraints: where joints have turned so that other velocities of
@@ -111,21 +108,4 @@ impl<const D: usize> FluidSystem<D> {
             }
         }
     }
-}
-
-/// The unknowns that rates of the coordinates of each body depend on, which couple with each other.
-pub(super) fn blocks_of_bodies<const D: usize>(
-    problem: &Problem<D>,
-    layout: &DofLayout<D>,
-    constraints: &AffineConstraints,
-) -> Vec<Vec<u32>> {
-    let ranges = problem.coordinates().into_iter().filter(|own| !own.is_empty());
-    let block = |own: Range<usize>| {
-        let rows = own.flat_map(|coordinate| constraints.row(layout.rate(coordinate)));
-        let mut unknowns: Vec<u32> = rows.map(|term| term.unknown).collect();
-        unknowns.sort_unstable();
-        unknowns.dedup();
-        unknowns
-    };
-    ranges.map(block).collect()
 }

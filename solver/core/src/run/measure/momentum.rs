@@ -33,8 +33,9 @@ pub(super) fn momentum_record<const D: usize>(
         let fluid = loads.bodies[body].load.force;
         let others = fluid + external;
         let force = others + state.contact.wrenches[body].force;
-        // Forces in joints and springs are not known here
-        let is_alone = !problem.has_joints() && rigid.spring.is_none();
+        // Forces in joints, springs and clamps are not known here
+        let is_alone =
+            !problem.has_joints() && rigid.spring.is_none() && rigid.flexible().is_none();
         let counts =
             |axis: usize| is_alone && matches!(rigid.drive(Mode::along(axis)), Drive::Free);
         let along = |vector: &Vector3<f64>| {

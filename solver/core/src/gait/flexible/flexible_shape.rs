@@ -3,52 +3,21 @@
 use std::sync::Arc;
 
 use alewife_mesh::{Moments, Point, Shape, Spline};
-use nalgebra::{DVector, Vector3};
+use nalgebra::DVector;
 
-use super::deformed_outline::{DeformedOutline, MaterialCurve, RecoilCorrection, ShapeMotion};
-use super::error::GaitError;
-use super::recoil::RecoilMotion;
-use crate::structure::{Flexible, Weight};
+use super::carried_outline::CarriedOutline;
+use crate::gait::deformed_outline::{
+    DeformedOutline, MaterialCurve, RecoilCorrection, ShapeMotion,
+};
+use crate::gait::error::GaitError;
+use crate::gait::recoil::RecoilMotion;
+use crate::structure::Flexible;
 
 /// An outline at rest, and what moves its points.
 #[derive(Debug)]
 pub struct FlexibleShape {
     rest: Arc<Spline>,
     body: Arc<dyn Flexible>,
-}
-
-/// The points of an outline at rest, carried by coordinates.
-#[derive(Debug, Clone)]
-pub(super) struct CarriedOutline {
-    rest: Arc<Spline>,
-    body: Arc<dyn Flexible>,
-    coordinates: DVector<f64>,
-    /// Where the body is, seen from where it started (m).
-    center: Vector3<f64>,
-}
-
-impl PartialEq for CarriedOutline {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.body, &other.body) && self.coordinates == other.coordinates
-    }
-}
-
-impl CarriedOutline {
-    /// Where a point of the outline is at rest (m), by the parameter of the outline.
-    pub(super) fn rest_place(&self, parameter: f64) -> Vector3<f64> {
-        let at = self.rest.evaluate(parameter)[0];
-        Vector3::new(at.x, at.y, 0.0)
-    }
-
-    /// Where the point at a place at rest (m) is, seen from the centre.
-    pub(super) fn place(&self, rest: &Vector3<f64>) -> Vector3<f64> {
-        self.body.place(&self.coordinates, rest) - self.center
-    }
-
-    /// The velocity there by those of the body.
-    pub(super) fn weights(&self, rest: &Vector3<f64>) -> Vec<Weight> {
-        self.body.weights(&self.coordinates, rest)
-    }
 }
 
 impl FlexibleShape {
@@ -70,12 +39,7 @@ impl ShapeMotion for FlexibleShape {
         coordinates: &[f64],
     ) -> Result<DeformedOutline, GaitError> {
         let coordinates = DVector::from_column_slice(coordinates);
-        let carried = CarriedOutline {
-            rest: Arc::clone(&self.rest),
-            body: Arc::clone(&self.body),
-            center: self.body.way_of_center(&coordinates),
-            coordinates,
-        };
+        let carried = CarriedOutline::new(&self.rest, &self.body, coordinates);
         let knots = self.rest.knots();
         let place = |knot: &f64| carried.place(&carried.rest_place(*knot)).xy();
         let points: Vec<[f64; 2]> =

@@ -1,0 +1,52 @@
+//! `CarriedOutline`: the points of an outline, carried by the coordinates of a flexible body.
+
+use std::sync::Arc;
+
+use alewife_mesh::Spline;
+use nalgebra::{DVector, Vector3};
+
+use crate::structure::{Flexible, Weight};
+
+/// The points of an outline at rest, carried by coordinates.
+#[derive(Debug, Clone)]
+pub(in crate::gait) struct CarriedOutline {
+    rest: Arc<Spline>,
+    body: Arc<dyn Flexible>,
+    coordinates: DVector<f64>,
+    /// Where the body is, seen from where it started (m).
+    center: Vector3<f64>,
+}
+
+impl PartialEq for CarriedOutline {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.body, &other.body) && self.coordinates == other.coordinates
+    }
+}
+
+impl CarriedOutline {
+    /// An outline at rest with these coordinates.
+    pub(super) fn new(
+        rest: &Arc<Spline>,
+        body: &Arc<dyn Flexible>,
+        coordinates: DVector<f64>,
+    ) -> Self {
+        let center = body.way_of_center(&coordinates);
+        Self { rest: Arc::clone(rest), body: Arc::clone(body), coordinates, center }
+    }
+
+    /// Where a point of the outline is at rest (m), by the parameter of the outline.
+    pub(in crate::gait) fn rest_place(&self, parameter: f64) -> Vector3<f64> {
+        let at = self.rest.evaluate(parameter)[0];
+        Vector3::new(at.x, at.y, 0.0)
+    }
+
+    /// Where the point at a place at rest (m) is, seen from the centre.
+    pub(in crate::gait) fn place(&self, rest: &Vector3<f64>) -> Vector3<f64> {
+        self.body.place(&self.coordinates, rest) - self.center
+    }
+
+    /// The velocity there by those of the body.
+    pub(in crate::gait) fn weights(&self, rest: &Vector3<f64>) -> Vec<Weight> {
+        self.body.weights(&self.coordinates, rest)
+    }
+}
