@@ -1,6 +1,6 @@
 //! Problems of `body.rod`, `attached` and `activation`: rods of no body, that fold, or that are held nowhere.
 
-use alewife_mesh::{Outline, PlacedShape, Point};
+use alewife_mesh::Outline;
 
 use crate::rules::Findings;
 use crate::{
@@ -10,6 +10,9 @@ use crate::{
 
 /// A table may end behind the tail by this part of the length: that of a fish is that up to where its sides would meet.
 const BEHIND: f64 = 0.1;
+
+/// Distance of the head of a rod from the body it is attached to, over its length.
+const FARTHEST: f64 = 0.5;
 
 /// Half width over the radius of curvature at rest above which a rod is no slender one.
 const BENT: f64 = 0.5;
@@ -39,7 +42,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     stiffness(findings, &format!("{key}.rod"), rod, body_of);
     rest(findings, &format!("{key}.rod.rest"), rod, body_of);
     if let Some(attached) = &body.attached {
-        attachment(findings, &format!("{key}.attached"), body, attached);
+        attachment(findings, &format!("{key}.attached"), body, attached, body_of);
     }
     if let Some(active) = &body.activation {
         activation(findings, &format!("{key}.activation"), active, body_of);
@@ -187,7 +190,13 @@ fn too_sharp(findings: &mut Findings<'_>, key: &str, curvature: f64, body: Slend
     }
 }
 
-fn attachment(findings: &mut Findings<'_>, key: &str, body: &Body, attached: &Attached) {
+fn attachment(
+    findings: &mut Findings<'_>,
+    key: &str,
+    body: &Body,
+    attached: &Attached,
+    slender: Slender,
+) {
     if let Some(to) = &attached.to {
         let bodies = &findings.model().bodies;
         let Some(other) = bodies.iter().find(|other| other.name == *to) else {
@@ -206,44 +215,50 @@ fn attachment(findings: &mut Findings<'_>, key: &str, body: &Body, attached: &At
             );
             return;
         }
-        off_surface(findings, key, other, attached);
-    } else if !attached.at.is_empty() {
-        findings.error(
-            &format!("{key}.at"),
-            "in the laboratory the head stays where it is at the start".to_owned(),
-            "move the body by `center`, and leave `at` out",
-        );
+        if other.rod.is_some() {
+            findings.error(
+                &format!("{key}.to"),
+                format!("\"{to}\" is a rod, and rods are attached to rigid bodies"),
+                "name a rigid body, or leave `to` out for the laboratory",
+            );
+            return;
+        }
+        if matches!(attached.hold, Hold::Angle(_)) {
+            findings.error(
+                &format!("{key}.hold"),
+                format!("an angle in time is one in the laboratory, and \"{to}\" is a body"),
+                "write hold = \"clamped\" or \"hinged\", or leave `to` out",
+            );
+            return;
+        }
+        off_surface(findings, key, body, other, slender);
     }
     if let Hold::Angle(angle) = &attached.hold {
         has_rate(findings, &format!("{key}.hold.angle"), angle);
     }
 }
 
-/// A rod is attached where the other body has its surface.
-fn off_surface(findings: &mut Findings<'_>, key: &str, other: &Body, attached: &Attached) {
-    let [x, y] = match attached.at[..] {
-        [x, y] => [x, y],
-        // One that is no point of the plane is refused already
-        _ => return,
-    };
-    let mesh = &findings.case().mesh;
-    let edge = other.size.or(mesh.surface).unwrap_or(mesh.size) * mesh.scale;
-    let place = Point::<2>::new(x, y);
-    let shape = PlacedShape {
-        name: other.name.clone(),
-        shape: other.shape.outline(),
-        center: Point::<2>::zeros(),
-        angle: 0.0,
-        size: None,
-    };
-    let Ok(outline) = Outline::new(&shape) else { return };
-    let nearest = outline.at(outline.parameter_of(place))[0];
-    let off = (nearest - place).norm();
-    if off > edge {
+/// A rod is attached near the surface of the other body: between them is fluid, which the mesh needs.
+fn off_surface(
+    findings: &mut Findings<'_>,
+    key: &str,
+    body: &Body,
+    other: &Body,
+    slender: Slender,
+) {
+    let placed = |body: &Body| Outline::new(&body.placed(1.0)).ok();
+    let (Some(own), Some(surface)) = (placed(body), placed(other)) else { return };
+    // The first point of a slender outline is its head
+    let head = own.at(0.0)[0];
+    let off = (surface.at(surface.parameter_of(head))[0] - head).norm();
+    if off > FARTHEST * slender.length {
         findings.error(
-            &format!("{key}.at"),
-            format!("[{x}, {y}] is {off} from the surface of \"{}\"", other.name),
-            &format!("write a point of its surface, such as [{}, {}]", nearest.x, nearest.y),
+            &format!("{key}.to"),
+            format!(
+                "the head of \"{}\" is {off} from the surface of \"{}\"",
+                body.name, other.name
+            ),
+            "move it by `center` and `angle` to where its head is near that body",
         );
     }
 }
@@ -308,7 +323,6 @@ center = [2.0, 2.0]
 motion = 'held'
 [[body]]
 name = 'b'
-center = [0, 0]
 {body}
 "
         );
@@ -319,7 +333,8 @@ center = [0, 0]
 
     /// A fish with these lines.
     fn fish(lines: &str) -> String {
-        format!("shape.fish.length = 1.0\nmotion = 'free'\n{lines}")
+        let center = if lines.starts_with("center") { "" } else { "center = [0, 0]\n" };
+        format!("{center}shape.fish.length = 1.0\nmotion = 'free'\n{lines}")
     }
 
     #[test]
@@ -331,7 +346,7 @@ center = [0, 0]
             "rod = { bending = 1.0, rest.table = [[0.0, 1.0], [1.0, -1.0]] }\n\
              attached.hold = 'clamped'",
             "rod.bending = 1.0\nattached.hold = { angle = { sine = { amplitude = '20 deg', period = 1.0 } } }",
-            "rod.bending = 1.0\nattached = { to = 'wall', at = [-0.5, 0.0], hold = 'hinged' }",
+            "center = [0.9, 2.0]\nrod.bending = 1.0\nattached = { to = 'wall', hold = 'hinged' }",
             "rod.bending = 1.0\nactivation = { moment = { sine = { amplitude = 0.1, period = 1.0 } }, \
              wave_speed = 1.0, envelope = [[0.0, 0.0], [1.0, 1.0]] }",
             "rod.bending = 1.0\nactivation.curvature.constant = 2.0",
@@ -359,8 +374,8 @@ center = [0, 0]
             (rod("spring = { torsion = 1.0 }"), "spring"),
             (rod("attached = { to = 'nobody', hold = 'clamped' }"), "attached.to"),
             (rod("attached = { to = 'b', hold = 'clamped' }"), "attached.to"),
-            (rod("attached = { to = 'wall', at = [0.3, 0.0], hold = 'clamped' }"), "attached.at"),
-            (rod("attached = { at = [0.3, 0.0], hold = 'clamped' }"), "attached.at"),
+            (rod("attached = { to = 'wall', hold = 'clamped' }"), "attached.to"),
+            (rod("attached = { to = 'wall', hold.angle.constant = 1.0 }"), "attached.hold"),
             (
                 rod("attached.hold = { angle.table = [[0.0, 0.0], [1.0, 1.0]] }"),
                 "attached.hold.angle",
@@ -377,8 +392,16 @@ center = [0, 0]
             (rod("activation.curvature.constant = 40.0"), "activation.curvature"),
             (fish("attached.hold = 'clamped'"), "attached"),
             (fish("activation.moment.constant = 1.0"), "activation"),
-            ("shape.disc.radius = 0.5\nmotion = 'free'\nrod.bending = 1.0".to_owned(), "rod"),
-            ("shape.fish.length = 1.0\nmotion = 'held'\nrod.bending = 1.0".to_owned(), "motion"),
+            (
+                "center = [0, 0]\nshape.disc.radius = 0.5\nmotion = 'free'\nrod.bending = 1.0"
+                    .to_owned(),
+                "rod",
+            ),
+            (
+                "center = [0, 0]\nshape.fish.length = 1.0\nmotion = 'held'\nrod.bending = 1.0"
+                    .to_owned(),
+                "motion",
+            ),
         ];
         for (body, key) in cases {
             assert_eq!(problems(&body, Severity::Error), [format!("body.1.{key}")], "{body}");

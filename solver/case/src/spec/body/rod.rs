@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
 #[cfg(test)]
-use crate::spec::number::{NonNegative, PerDimension, Positive};
+use crate::spec::number::{NonNegative, Positive};
 
 /// `rod`: the body bends about its midline as an elastic rod.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -67,13 +67,9 @@ pub enum AlongBody {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Attached {
-    /// Name of the body it is attached to; the laboratory if absent.
+    /// Name of the body it is attached to, as it is at the start; the laboratory if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<String>,
-    /// Where, in the frame of that body (m); where the head is at the start if absent.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[cfg_attr(test, schemars(with = "PerDimension"))]
-    pub at: Vec<f64>,
     /// What is given of it.
     pub hold: Hold,
 }

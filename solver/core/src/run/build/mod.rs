@@ -14,6 +14,7 @@ use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 use self::bodies::rigid_body;
 use self::joints::add_joint;
 pub use self::motion_settings::motion_settings;
+use self::rod::attach;
 pub(super) use self::rod::rod_shape;
 pub use self::shape_motion::{BodyRecoil, recoils, shape_motion};
 use self::sides::side;
@@ -84,6 +85,9 @@ pub fn build_problem<const D: usize>(
             BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
             BoundaryKind::Side => Some(side(case, &known.name)?),
         });
+    }
+    for body in 0..bodies.len() {
+        attach(model, body, &mut bodies)?;
     }
     let frame = model.frame_body();
     if let (None, Some(name)) = (frame, &case.frame) {

@@ -4,9 +4,12 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use alewife_mesh::Profile;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
-use crate::case::{Activation, AlongBody, Body, Case, FlowModel, Hold, RestShape, RodSpec, Stroke};
+use crate::case::{
+    Activation, AlongBody, Body, Case, FlowModel, Hold, Model, RestShape, RodSpec, Stroke,
+};
+use crate::coupling::{Attachment, BodyVector, OnBody, RigidBody};
 use crate::gait::{FlexibleShape, ShapeMotion};
 use crate::rod::{
     Along, End, EndPose, Field, Flexure, PlanarProperties, PlanarRod, PlanarRodBody, RodProperties,
@@ -27,9 +30,6 @@ pub fn rod_shape(case: &Case, body: &Body) -> Result<Option<Arc<dyn ShapeMotion>
     let refuse = |why: &str| RunError::Unsupported(format!("body `{}`: {why}", body.name));
     let profile = body.shape.profile().ok_or_else(|| refuse("a rod has to be slender"))?;
     let outline = profile.spline().ok_or_else(|| refuse("its lengths make no body"))?;
-    if body.attached.as_ref().is_some_and(|attached| attached.to.is_some()) {
-        return Err(refuse("rods can be attached to the laboratory only"));
-    }
     let rod = PlanarRod::new(properties(case, body, spec, &profile))
         .map_err(|error| refuse(&error.to_string()))?;
     // The head is at the right, from where the rod goes on towards -x
@@ -46,7 +46,9 @@ pub fn rod_shape(case: &Case, body: &Body) -> Result<Option<Arc<dyn ShapeMotion>
 
 /// What holds the head.
 fn supports(body: &Body, base: EndPose) -> Supports<EndPose> {
-    let Some(attached) = &body.attached else { return Supports::FREE };
+    let Some(attached) = body.attached.as_ref().filter(|attached| attached.to.is_none()) else {
+        return Supports::FREE;
+    };
     match attached.hold.clone() {
         Hold::Clamped => Supports::one(End::Base, Support::Clamped, move |_| base),
         Hold::Hinged => Supports::one(End::Base, Support::Hinged, move |_| base),
@@ -145,4 +147,45 @@ fn wave(
         let factor = envelope.at(along);
         Varying { value: factor * value, rate: factor * rate }
     })
+}
+
+/// What of the rod of a body is fixed to another body, as both are at the start.
+///
+/// # Errors
+/// Where there is no such body.
+pub(super) fn attach(
+    model: &Model,
+    index: usize,
+    bodies: &mut [RigidBody],
+) -> Result<(), RunError> {
+    let body = &model.bodies[index];
+    let Some(attached) = &body.attached else { return Ok(()) };
+    let Some(name) = &attached.to else { return Ok(()) };
+    let refuse = |why: String| RunError::Unsupported(format!("body `{}`: {why}", body.name));
+    let to = model.bodies.iter().position(|other| other.name == *name);
+    let to = to.ok_or_else(|| refuse(format!("there is no body `{name}` to attach it to")))?;
+    let n_held = match attached.hold {
+        Hold::Clamped => 4,
+        Hold::Hinged => 2,
+        Hold::Angle(_) => return Err(refuse("an angle in time is one in the laboratory".into())),
+    };
+    let (own, other) = (bodies[index].pose, bodies[to].pose);
+    let start = bodies[index].flexible().map(|flexible| flexible.initial());
+    let start = start.ok_or_else(|| refuse("it is no rod".into()))?;
+    let in_other = |vector: Vector3<f64>| other.to_body(&own.to_world(&vector));
+    let place = in_other(Vector3::new(start[0], start[1], 0.0))
+        + other.to_body(&(own.center - other.center));
+    let along = in_other(Vector3::new(start[2], start[3], 0.0));
+    let given = |coordinate: usize| OnBody {
+        coordinate,
+        axis: coordinate % 2,
+        vector: if coordinate < 2 {
+            BodyVector::Place(place)
+        } else {
+            BodyVector::Direction(along)
+        },
+    };
+    let coordinates = (0..n_held).map(given).collect();
+    bodies[index].attachment = Some(Attachment { to, coordinates });
+    Ok(())
 }
