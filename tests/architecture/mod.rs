@@ -51,8 +51,8 @@ const ROOMS: [(&str, &[&str]); 26] = [
     (
         "run",
         &[
-            "algebra", "body", "case", "contact", "coupling", "flow", "gait", "motion", "space",
-            "state", "step", "time", "timing",
+            "algebra", "body", "case", "contact", "coupling", "flow", "gait", "motion", "rod",
+            "space", "state", "step", "time", "timing",
         ],
     ),
     ("observer", &["body", "case", "flow", "run", "step", "timing"]),

@@ -11,9 +11,8 @@ use toml::de::{DeTable, DeValue};
 use super::source::{Origin, Source};
 use super::toml_help::toml_help;
 
-/// Tables that hold exactly one of several alternatives.
-///
-/// Where two texts name different alternatives, the later one replaces the earlier one whole.
+/// Tables that hold exactly one of several alternatives. Where two texts name different ones, the later one replaces
+/// the earlier one whole.
 pub const CHOICES: [&str; 24] = [
     "kind",
     "length",

@@ -1,5 +1,6 @@
 //! Problems of bodies, of what they are joined by and of how they move.
 
+mod attached;
 pub(super) mod bodies;
 mod gait;
 pub(super) mod joints;

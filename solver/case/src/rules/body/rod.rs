@@ -1,18 +1,13 @@
 //! Problems of `body.rod`, `attached` and `activation`: rods of no body, that fold, or that are held nowhere.
 
-use alewife_mesh::Outline;
-
+use super::attached;
 use crate::rules::Findings;
 use crate::{
-    Activation, AlongBody, Attached, Body, Hold, Motion, RestShape, RodSpec, Scheme, Stroke,
-    TimeSettings,
+    Activation, AlongBody, Body, Hold, Motion, RestShape, RodSpec, Scheme, Stroke, TimeSettings,
 };
 
 /// A table may end behind the tail by this part of the length: that of a fish is that up to where its sides would meet.
 const BEHIND: f64 = 0.1;
-
-/// Distance of the head of a rod from the body it is attached to, over its length.
-const FARTHEST: f64 = 0.5;
 
 /// Half width over the radius of curvature at rest above which a rod is no slender one.
 const BENT: f64 = 0.5;
@@ -42,7 +37,10 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     stiffness(findings, &format!("{key}.rod"), rod, body_of);
     rest(findings, &format!("{key}.rod.rest"), rod, body_of);
     if let Some(attached) = &body.attached {
-        attachment(findings, &format!("{key}.attached"), body, attached, body_of);
+        attached::check(findings, &format!("{key}.attached"), body, attached, body_of.length);
+        if let Hold::Angle(angle) = &attached.hold {
+            has_rate(findings, &format!("{key}.attached.hold.angle"), angle);
+        }
     }
     if let Some(active) = &body.activation {
         activation(findings, &format!("{key}.activation"), active, body_of);
@@ -186,79 +184,6 @@ fn too_sharp(findings: &mut Findings<'_>, key: &str, curvature: f64, body: Slend
                 body.half_width
             ),
             &format!("write a curvature below {}, or make the body thinner", BENT / body.half_width),
-        );
-    }
-}
-
-fn attachment(
-    findings: &mut Findings<'_>,
-    key: &str,
-    body: &Body,
-    attached: &Attached,
-    slender: Slender,
-) {
-    if let Some(to) = &attached.to {
-        let bodies = &findings.model().bodies;
-        let Some(other) = bodies.iter().find(|other| other.name == *to) else {
-            findings.error(
-                &format!("{key}.to"),
-                format!("there is no body \"{to}\""),
-                "name another body, or leave `to` out for the laboratory",
-            );
-            return;
-        };
-        if other.name == body.name {
-            findings.error(
-                &format!("{key}.to"),
-                format!("\"{to}\" cannot be attached to itself"),
-                "name another body, or leave `to` out for the laboratory",
-            );
-            return;
-        }
-        if other.rod.is_some() {
-            findings.error(
-                &format!("{key}.to"),
-                format!("\"{to}\" is a rod, and rods are attached to rigid bodies"),
-                "name a rigid body, or leave `to` out for the laboratory",
-            );
-            return;
-        }
-        if matches!(attached.hold, Hold::Angle(_)) {
-            findings.error(
-                &format!("{key}.hold"),
-                format!("an angle in time is one in the laboratory, and \"{to}\" is a body"),
-                "write hold = \"clamped\" or \"hinged\", or leave `to` out",
-            );
-            return;
-        }
-        off_surface(findings, key, body, other, slender);
-    }
-    if let Hold::Angle(angle) = &attached.hold {
-        has_rate(findings, &format!("{key}.hold.angle"), angle);
-    }
-}
-
-/// A rod is attached near the surface of the other body: between them is fluid, which the mesh needs.
-fn off_surface(
-    findings: &mut Findings<'_>,
-    key: &str,
-    body: &Body,
-    other: &Body,
-    slender: Slender,
-) {
-    let placed = |body: &Body| Outline::new(&body.placed(1.0)).ok();
-    let (Some(own), Some(surface)) = (placed(body), placed(other)) else { return };
-    // The first point of a slender outline is its head
-    let head = own.at(0.0)[0];
-    let off = (surface.at(surface.parameter_of(head))[0] - head).norm();
-    if off > FARTHEST * slender.length {
-        findings.error(
-            &format!("{key}.to"),
-            format!(
-                "the head of \"{}\" is {off} from the surface of \"{}\"",
-                body.name, other.name
-            ),
-            "move it by `center` and `angle` to where its head is near that body",
         );
     }
 }
