@@ -15,6 +15,7 @@ def swim(steered, out=None, settings=None):
     """Distance, offset and powers, a row a pause."""
     case = alewife.load("station.toml").set(settings or {"title": "station"})
     rows, seen = [], deque(maxlen=round(1 / PAUSE))
+    gathered = 0.0
     names = ["leader.x", "leader.y", "follower.x", "follower.y", "follower.angle"]
     with alewife.session(case, out, overwrite=True) as session:
         while not session.is_over:
@@ -31,9 +32,10 @@ def swim(steered, out=None, settings=None):
                 (after - before)[4] / span,
             )
             if steered and session.time >= 1.0:
+                gathered = np.clip(gathered + PAUSE * far, -0.3, 0.3)
                 session.command(
                     {
-                        "follower.beat": 1.0 + 1.5 * far + 1.0 * rate_x,
+                        "follower.beat": 1.0 + 3.0 * far + 1.5 * rate_x + 1.0 * gathered,
                         "follower.bend": 0.6 * (angle + 0.5 * rate + 1.0 * aside + 0.5 * rate_y),
                     }
                 )

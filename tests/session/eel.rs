@@ -1,11 +1,13 @@
 //! The robotic eel by commands that sample its sines swims as far as the case.
 
+use std::f64::consts::PI;
+
 use alewife_core::case::{Case, Model, Pivot, Stroke, SwimmerKind};
 use alewife_core::run::{Session, simulate};
 
 /// Time between samples (s), and the time constant of the filters (s).
 const PAUSE: f64 = 0.02;
-const FILTER: f64 = 0.08;
+const FILTER: f64 = 0.12;
 
 fn eel(settings: &[&str]) -> (Model, Vec<Stroke>) {
     let settings: Vec<String> = settings.iter().map(|&one| one.to_owned()).collect();
@@ -23,7 +25,7 @@ fn eel(settings: &[&str]) -> (Model, Vec<Stroke>) {
 fn ways(settings: &[&str]) -> [f64; 2] {
     let (model, sines) = eel(settings);
     let command =
-        format!("{{ bent.angle.command = {{ limits = [-0.7, 0.7], filter = {FILTER} }} }}");
+        format!("{{ bent.angle.command = {{ limits = [-1.0, 1.0], filter = {FILTER} }} }}");
     let joints = vec![command; sines.len()].join(", ");
     let joints = format!("swimmer.0.kind.chain.joints=[{joints}]");
     let (on_command, _) = eel(&[settings, &[&joints, "swimmer.0.period=1.0"]].concat());
@@ -35,6 +37,8 @@ fn ways(settings: &[&str]) -> [f64; 2] {
             let [before, now, after] = [-1e-4, 0.0, 1e-4].map(|off| sine.at(due + off));
             let acceleration = (after[1] - before[1]) / 2e-4;
             let target = now[0] + 2.0 * FILTER * now[1] + FILTER * FILTER * acceleration;
+            // What is held has a smaller fundamental than what it is sampled from
+            let target = target * (PI * PAUSE) / (PI * PAUSE).sin();
             session.command(&format!("eel.joint.{}", nth + 1), target).unwrap();
         }
         session.advance_to((session.time() + PAUSE).min(session.end())).unwrap();

@@ -24,6 +24,7 @@ pub use read::recording::Recording;
 pub use read::schema::schema;
 pub use rules::{at_rest, check};
 pub use spec::body::axial_vector::AxialVector;
+pub use spec::body::command::Command;
 pub use spec::body::gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
     JointsGait, PulsatingGait, TubeShape,
@@ -41,7 +42,6 @@ pub use spec::body::{
     PartSpec, ShapeSpec,
 };
 pub use spec::case::Case;
-pub use spec::command::Command;
 pub use spec::comparison::reference::{
     Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant,
 };
@@ -51,8 +51,9 @@ pub use spec::contact::{ContactLosses, ContactSpec};
 pub use spec::domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use spec::extent::Extent;
 pub use spec::field::{DipoleField, FieldSpec, LinearField, MagneticSpec, RotatingField};
+pub use spec::fluid::mean_flow::MeanFlowSpec;
+pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use spec::fluid::{FlowModel, Fluid};
-pub use spec::mean_flow::MeanFlowSpec;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use spec::mesh_file::MeshFile;
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
@@ -60,7 +61,6 @@ pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };
 pub use spec::units::{UnitLabels, Units};
-pub use spec::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use text::diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use text::nearest::{nearest, several_nearest};

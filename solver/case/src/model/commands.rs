@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::spec::command::Command;
+use crate::spec::body::command::Command;
 use crate::text::nearest::several_nearest;
 
 /// Something that is asked for.

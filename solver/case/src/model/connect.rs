@@ -2,7 +2,7 @@
 
 use super::Model;
 use super::commands::Commands;
-use crate::spec::command::Command;
+use crate::spec::body::command::Command;
 use crate::{
     Body, BoundaryCondition, GaitSpec, JointKind, MagneticSpec, Motion, Stroke, TimeFunction,
 };

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::command::Command;
+use super::body::command::Command;
 use super::mesh_file::MeshFile;
 #[cfg(test)]
 use crate::spec::number::{NonZero, PerDimension, Positive};

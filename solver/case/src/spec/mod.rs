@@ -2,14 +2,12 @@
 
 pub(crate) mod body;
 pub(crate) mod case;
-pub(crate) mod command;
 pub(crate) mod comparison;
 pub(crate) mod contact;
 pub(crate) mod domain;
 pub(crate) mod extent;
 pub(crate) mod field;
 pub(crate) mod fluid;
-pub(crate) mod mean_flow;
 pub(crate) mod mesh;
 pub(crate) mod mesh_file;
 #[cfg(test)]
@@ -18,4 +16,3 @@ pub(crate) mod output;
 pub(crate) mod time;
 mod time_function;
 pub(crate) mod units;
-pub(crate) mod viscosity;

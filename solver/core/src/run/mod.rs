@@ -1,6 +1,5 @@
 //! From a case to a run: build, begin, make steps of a controlled size, measure, and let observers look on.
 
-mod act;
 mod build;
 mod case_mesh;
 mod control;

@@ -1,6 +1,7 @@
 //! `[[body]]`: outline, pose, density, motion and gait of one body.
 
 pub(crate) mod axial_vector;
+pub(crate) mod command;
 pub(crate) mod gait;
 pub(crate) mod joint;
 pub(crate) mod link;

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::iter::successors;
 
-use crate::spec::command::Command;
+use crate::spec::body::command::Command;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, Positive};
 use serde::{Deserialize, Serialize};

@@ -1,10 +1,10 @@
 //! What of a `Session` makes steps or begins anew: by the methods of `Solve`, which are compiled with all optimisation.
 
-use super::case_mesh::Dimension;
-use super::resume::SavedState;
 use super::session::{Observers, Session, refused};
-use super::{RunError, Solve};
 use crate::case::Model;
+use crate::run::case_mesh::Dimension;
+use crate::run::resume::SavedState;
+use crate::run::{RunError, Solve};
 
 impl<const D: usize> Session<D>
 where

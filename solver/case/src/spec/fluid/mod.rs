@@ -1,8 +1,11 @@
 //! `[fluid]`: density, viscosity, gravity and which equations hold.
 
+pub(crate) mod mean_flow;
+pub(crate) mod viscosity;
+
+use crate::spec::fluid::viscosity::ViscositySpec;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, PerDimension};
-use crate::spec::viscosity::ViscositySpec;
 use serde::{Deserialize, Serialize};
 
 /// Which equations the fluid obeys.

@@ -4,12 +4,12 @@ use std::fmt;
 
 use alewife_mesh::{Mesh, Point};
 
-use super::RunError;
-use super::case_mesh::{CaseMesh, Dimension};
-use super::resume::SavedState;
-use super::run::{Run, RunSummary};
-use super::snapshot::{Observer, Recorded};
 use crate::case::{Model, Recording, TimeSettings, Unsteady, several_nearest};
+use crate::run::RunError;
+use crate::run::case_mesh::{CaseMesh, Dimension};
+use crate::run::resume::SavedState;
+use crate::run::run::{Run, RunSummary};
+use crate::run::snapshot::{Observer, Recorded};
 use crate::step::{FlowError, StopRequest};
 
 /// Who looks on.
@@ -48,7 +48,7 @@ pub(super) fn refused(reason: String) -> RunError {
 
 impl<const D: usize> Session<D> {
     /// Opens a session of a case: meshed, and with the flow at time zero, or at a saved state.
-    pub(super) fn begin(
+    pub(in crate::run) fn begin(
         model: &Model,
         saved: Option<&SavedState<D>>,
         observers: Observers<D>,
@@ -75,7 +75,7 @@ impl<const D: usize> Session<D> {
     }
 
     /// Makes all steps up to a time (s), and pauses.
-    pub(super) fn make_steps(&mut self, until: f64) -> Result<(), RunError> {
+    pub(in crate::run) fn make_steps(&mut self, until: f64) -> Result<(), RunError> {
         let settings = self.settings.clone();
         let before = self.time();
         let made = self.run.hearing(|run| {
