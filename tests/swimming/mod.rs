@@ -10,3 +10,4 @@ mod joints;
 mod orders;
 mod reciprocity;
 mod rods;
+mod rods_of_cases;

@@ -32,6 +32,7 @@ pub use spec::body::gait::{
 pub use spec::body::joint::{Ball, Hinge, Joint, JointKind, Slider};
 pub use spec::body::link::{Link, ShapedLink};
 pub use spec::body::orientation::Orientation;
+pub use spec::body::rod::{Activation, AlongBody, Attached, Hold, RestShape, RodSpec};
 pub use spec::body::spring::SpringSpec;
 pub use spec::body::squirmer::SquirmerGait;
 pub use spec::body::stroke::{Stroke, smooth_ramp};

@@ -57,10 +57,24 @@ pub trait Flexible: Structure + std::fmt::Debug {
     /// The centre of the body, as a sum of weights times coordinates.
     fn center_weights(&self) -> Vec<Weight>;
 
+    /// How its midline is bent, of bodies that have one.
+    fn bend(&self, _coordinates: &DVector<f64>) -> Option<Bend> {
+        None
+    }
+
     /// How far the centre has come since time zero (m).
     fn way_of_center(&self, coordinates: &DVector<f64>) -> Vector3<f64> {
         weighted(&self.center_weights(), &(coordinates - self.initial()))
     }
+}
+
+/// How a midline is bent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bend {
+    /// Where it ends (m).
+    pub tip: Vector3<f64>,
+    /// Its curvature where that is largest in size (1/m).
+    pub curvature: f64,
 }
 
 /// A coordinate that is given, and its velocity.

@@ -289,6 +289,9 @@ impl Body {
     /// Whether its outline changes in time.
     #[must_use]
     pub fn deforms(&self) -> bool {
+        if self.rod.is_some() {
+            return true;
+        }
         match self.gait {
             None | Some(GaitSpec::Squirmer(_)) => false,
             Some(

@@ -239,6 +239,9 @@ impl Model {
                 load_frame: LoadFrame::default(),
                 spring: None,
                 magnetic_moment: part.moment_in(swimmer),
+                rod: None,
+                attached: None,
+                activation: None,
                 size: swimmer.size,
             });
             self.swimmer_of_bodies.push(index);

@@ -45,8 +45,12 @@ pub fn columns(model: &Model) -> Vec<Column> {
     for (nth, body) in model.bodies.iter().enumerate() {
         let source = |quantity| Source::Body(nth, quantity);
         let is_magnet = case.magnetic_field().is_some() && !body.magnetic_moment.is_empty();
+        let own = [
+            Condition::Moment.holding_if(is_magnet),
+            Condition::Rod.holding_if(body.rod.is_some()),
+        ];
         let known: Vec<Condition> =
-            of_case.iter().copied().chain(Condition::Moment.holding_if(is_magnet)).collect();
+            of_case.iter().copied().chain(own.into_iter().flatten()).collect();
         add(&mut columns, &body.name, BodyQuantity::TABLE, &known, source);
     }
     let joints = model.bodies.iter().enumerate().filter_map(|(index, child)| {

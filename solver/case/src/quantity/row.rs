@@ -89,6 +89,8 @@ pub enum Condition {
     Moment,
     /// The magnetic field differs from place to place.
     FieldGradient,
+    /// The body is an elastic rod.
+    Rod,
 }
 
 impl Condition {
@@ -120,6 +122,7 @@ impl Condition {
             Self::MovingMesh => "a moving mesh",
             Self::Moment => "[`magnetic_moment`](#field)",
             Self::FieldGradient => "a [field](#field) of place",
+            Self::Rod => "[`rod`](#bodies-that-bend-by-themselves)",
         }
     }
 }

@@ -75,6 +75,12 @@ quantities! {
             "Angle from the magnetic moment to the field, counter-clockwise, within half a turn, in space from 0              to pi; NaN while there is no field";
         MagneticPower: Scalar, "magnetic_power", "W (W/m)", [Moment],
             "Work of the magnetic field on the body";
+        ElasticEnergy: Scalar, "elastic_energy", "J (J/m)", [Rod],
+            "Elastic energy of the rod, none of it of muscles";
+        Tip: Vector, "tip", "m", [Rod], "End of the midline at the tail, in the laboratory";
+        Curvature: Scalar, "curvature", "1/m", [Rod],
+            "Curvature of the midline where it is largest in size, positive where the body turns \
+             counter-clockwise from head to tail";
     }
 }
 

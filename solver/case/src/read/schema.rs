@@ -60,7 +60,7 @@ mod tests {
     use crate::read::reference_rows::REFERENCES;
     use crate::read::reference_table::ReferenceTable;
     use crate::read::stroke_file::FileStroke;
-    use crate::text::tree::CHOICES;
+    use crate::text::choices::CHOICES;
 
     /// The schema of `Case`, and `extends`, which only reading knows.
     fn derived() -> Value {

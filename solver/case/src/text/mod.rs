@@ -1,6 +1,7 @@
 //! Texts of cases: trees of TOML that know where they were written, what is wrong in them and how it is reported.
 
 pub(crate) mod angle;
+pub(crate) mod choices;
 pub(crate) mod csv_line;
 mod deserialize;
 pub(crate) mod diagnostic;

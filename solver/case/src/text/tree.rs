@@ -8,37 +8,9 @@ use std::sync::Arc;
 
 use toml::de::{DeTable, DeValue};
 
+use super::choices::CHOICES;
 use super::source::{Origin, Source};
 use super::toml_help::toml_help;
-
-/// Tables that hold exactly one of several alternatives.
-///
-/// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 23] = [
-    "kind",
-    "length",
-    "angle",
-    "torque",
-    "force",
-    "copies",
-    "domain",
-    "time",
-    "shape",
-    "motion",
-    "gait",
-    "orientation",
-    "rest_orientation",
-    "contact",
-    "factor",
-    "load_factor",
-    "turn",
-    "beat",
-    "bend",
-    "fields",
-    "series",
-    "until",
-    "viscosity",
-];
 
 /// A value and where it is written.
 #[derive(Debug, Clone, PartialEq)]

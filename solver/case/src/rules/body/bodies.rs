@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-use super::{gait, solid, spring};
+use super::{gait, rod, solid, spring};
 use crate::rules::Findings;
 use crate::rules::flow::boundary::check_factor;
 use crate::text::names::{LONGEST_NAME, is_word};
@@ -37,6 +37,7 @@ pub fn check(findings: &mut Findings<'_>) {
         check_motion(findings, &key, body);
         spring::check(findings, &key, body);
         gait::check(findings, &key, body);
+        rod::check(findings, &key, body);
         if case.geometry == Geometry::Axisymmetric && findings.is_vector(&body.center) {
             check_on_axis(findings, &key, body);
         }

@@ -1,9 +1,12 @@
 //! Problems of bodies, of what they are joined by and of how they move.
 
+mod attached;
+pub(super) mod beside_rod;
 pub(super) mod bodies;
 mod gait;
 pub(super) mod joints;
 mod joints_in_space;
+mod rod;
 mod skin;
 mod solid;
 mod spring;

@@ -9,8 +9,9 @@ use super::body::joints::start;
 use crate::model::speed::{norm, weight};
 use crate::text::diagnostic::{Diagnostic, Severity};
 use crate::{
-    Body, BoundaryCondition, CaseFile, DomainSpec, GaitSpec, Geometry, Joint, JointKind, LoadFrame,
-    Lock, MeanFlowSpec, Model, Motion, Orientation, ShapeSpec, Stroke, TimeFunction, TimeSettings,
+    Body, BoundaryCondition, CaseFile, DomainSpec, GaitSpec, Geometry, Hold, Joint, JointKind,
+    LoadFrame, Lock, MeanFlowSpec, Model, Motion, Orientation, ShapeSpec, Stroke, TimeFunction,
+    TimeSettings,
 };
 
 /// Length over that of a body, or angle (rad), below which a spring is at rest.
@@ -40,6 +41,7 @@ fn is_driven(model: &Model) -> bool {
             let own = &model.bodies[body];
             gait_drives(own)
                 || motion_drives(own)
+                || rod_drives(own)
                 || spring_drives(own)
                 || is_pulled(model, body)
                 || field_drives(model, own)
@@ -113,6 +115,18 @@ fn motion_drives(body: &Body) -> bool {
 fn field_drives(model: &Model, body: &Body) -> bool {
     let is_there = model.case.magnetic_field().is_some() && !body.magnetic_moment.is_empty();
     is_there && body.motion == Motion::Free
+}
+
+/// Whether a rod is bent from the shape it has at the start, which is that without loads, or its head is turned.
+fn rod_drives(body: &Body) -> bool {
+    let turns = body.attached.as_ref().is_some_and(|attached| match &attached.hold {
+        Hold::Angle(angle) => moves(angle),
+        Hold::Clamped | Hold::Hinged => false,
+    });
+    let acts = |stroke: &Stroke| moves(stroke) || stroke.at(0.0)[0] != 0.0;
+    let active = body.activation.as_ref();
+    let stroke = active.and_then(|active| active.curvature.as_ref().or(active.moment.as_ref()));
+    turns || stroke.is_some_and(acts)
 }
 
 /// Whether the spring of a body is not at rest at the start.

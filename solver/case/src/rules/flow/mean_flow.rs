@@ -5,8 +5,10 @@ use crate::model::numbers::significant;
 use crate::model::region::normal_axis;
 use crate::model::speed::load_in_space;
 use crate::rules::Findings;
+use crate::rules::body::beside_rod;
 use crate::{
-    Body, BoundaryCondition, FlowModel, LoadFrame, Lock, MeanFlowSpec, Motion, TimeSettings,
+    Body, BoundaryCondition, FlowModel, LoadFrame, Lock, MeanFlowSpec, Motion, SpringSpec,
+    TimeSettings,
 };
 
 /// Part of all loads that is taken for rounding.
@@ -105,6 +107,11 @@ fn check_determined(findings: &mut Findings<'_>, axis: usize) {
         [&flow.pressure_gradient, &flow.mean_velocity, &flow.body_force].map(given);
     let holder = model.bodies.iter().position(|body| is_held(body, axis));
     let has_spring = model.bodies.iter().any(|body| body.spring.is_some());
+    let resists = |all: &[f64]| all.get(axis).is_some_and(|value| *value != 0.0);
+    let ties = |spring: &SpringSpec| resists(&spring.stiffness) || resists(&spring.damping);
+    if holder.is_none() && !model.bodies.iter().filter_map(|body| body.spring.as_ref()).any(ties) {
+        beside_rod::unheld(findings, along);
+    }
     let is_driven = [gradient, force].iter().flatten().any(|value| *value != 0.0);
     match holder {
         Some(body) if gradient.or(velocity).or(force).is_none() => findings.error(

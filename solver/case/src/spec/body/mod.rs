@@ -6,6 +6,7 @@ pub(crate) mod gait;
 pub(crate) mod joint;
 pub(crate) mod link;
 pub(crate) mod orientation;
+pub(crate) mod rod;
 mod shape_names;
 pub(crate) mod skin;
 mod solid;
@@ -23,6 +24,7 @@ use self::gait::{
     PulsatingGait, TubeShape,
 };
 use self::orientation::Orientation;
+use self::rod::{Activation, Attached, RodSpec};
 use self::spring::SpringSpec;
 use self::squirmer::SquirmerGait;
 use super::domain::{Geometry, TimeFunction};
@@ -347,6 +349,18 @@ pub struct Body {
     /// field of `[field]` turns.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub magnetic_moment: Vec<f64>,
+    /// Makes it bend as an elastic rod; a slender body only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    pub rod: Option<RodSpec>,
+    /// What holds the head of a rod; it is free if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    pub attached: Option<Attached>,
+    /// Muscles or motors within a rod.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    pub activation: Option<Activation>,
     /// Cell size on its surface (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]

@@ -125,10 +125,13 @@ impl<const D: usize> Problem<D> {
         bodies.flat_map(of_body).collect()
     }
 
-    /// Kinetic energy (J) of a body by the rates of its coordinates among those of all bodies; zero of a rigid one.
+    /// Kinetic energy (J) of a body by the rates of its coordinates among those of all bodies; zero of a rigid one, and
+    /// without inertia.
     #[must_use]
     pub fn kinetic_energy_of_coordinates(&self, body: usize, rates: &[f64]) -> f64 {
-        let Some(flexible) = self.bodies[body].flexible() else { return 0.0 };
+        let Some(flexible) = self.bodies[body].flexible().filter(|_| self.has_inertia) else {
+            return 0.0;
+        };
         let rates = DVector::from_column_slice(&rates[self.coordinates()[body].clone()]);
         0.5 * rates.dot(&(flexible.mass() * &rates))
     }

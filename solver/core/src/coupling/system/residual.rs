@@ -4,6 +4,7 @@ use alewife_mesh::Point;
 
 use super::super::solution::Solution;
 use super::{Configuration, FluidSystem};
+use crate::coupling::flexible_equation::FlexibleEquation;
 use crate::flow::{FlowTerms, residual};
 
 impl<const D: usize> FluidSystem<D> {
@@ -47,6 +48,13 @@ impl<const D: usize> FluidSystem<D> {
             cell.add(&self.layout, self.modes, [&Point::<D>::zeros(), &force], &mut raw);
         }
         at.constraints.restrict(&raw)
+    }
+
+    /// The largest rounding in the equations of coordinates at a solution; 0 without them.
+    #[must_use]
+    pub fn largest_rounding(&self, at: &Configuration<'_, D>, solution: &Solution<D>) -> f64 {
+        let of_body = |equation: &FlexibleEquation| equation.rounding(&solution.rates).amax();
+        at.bodies.flexible.iter().map(of_body).fold(0.0, f64::max)
     }
 
     /// The largest size of a reduced residual at a solution; what coordinates have in it counts

@@ -3,6 +3,7 @@
 use alewife_mesh::{BoundaryId, Mesh};
 use nalgebra::Vector3;
 
+use super::rod::rod_shape;
 use super::solid::Solid;
 use crate::body::{Inertia, Mode, Orientation, Pose, RigidVector, Wrench};
 use crate::case::{
@@ -42,7 +43,7 @@ pub(super) fn rigid_body<const D: usize>(
     // Weight less buoyancy: the pressure is the one without its hydrostatic part
     let net_mass = (density - case.fluid.density) * volume.mass;
     let weight = vector(&case.fluid.gravity) * net_mass;
-    Ok(RigidBody {
+    let rigid = RigidBody {
         drives: drives(body, metric, case.geometry),
         inertia,
         volume,
@@ -57,6 +58,10 @@ pub(super) fn rigid_body<const D: usize>(
         gait: slip(body, metric),
         shape: shape_motion(body, case.geometry)?,
         ..RigidBody::held(body.name.clone(), boundary, pose)
+    };
+    Ok(match rod_shape(case, body)? {
+        Some(shape) => rigid.with_coordinates(shape),
+        None => rigid,
     })
 }
 

@@ -4,6 +4,7 @@ mod bodies;
 mod joints;
 mod magnets;
 mod motion_settings;
+mod rod;
 mod shape_motion;
 mod sides;
 mod sizing;
@@ -15,6 +16,8 @@ use self::bodies::rigid_body;
 use self::joints::add_joint;
 use self::magnets::add_magnets;
 pub use self::motion_settings::motion_settings;
+use self::rod::attach;
+pub(super) use self::rod::rod_shape;
 pub use self::shape_motion::{BodyRecoil, recoils, shape_motion};
 use self::sides::side;
 pub(super) use self::sizing::limits;
@@ -86,6 +89,9 @@ pub fn build_problem<const D: usize>(
             BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
             BoundaryKind::Side => Some(side(case, &known.name)?),
         });
+    }
+    for body in 0..bodies.len() {
+        attach(model, body, &mut bodies)?;
     }
     let frame = model.frame_body();
     if let (None, Some(name)) = (frame, &case.frame) {

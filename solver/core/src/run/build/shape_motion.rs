@@ -24,7 +24,8 @@ pub fn shape_motion(
     geometry: Geometry,
 ) -> Result<Option<Arc<dyn ShapeMotion>>, RunError> {
     let refuse = |why: &str| RunError::Unsupported(format!("body `{}`: {why}", body.name));
-    if !body.deforms() {
+    // Rods are made in `rod.rs`
+    if !body.deforms() || body.rod.is_some() {
         return Ok(None);
     }
     let midline = match (&body.gait, &body.shape) {

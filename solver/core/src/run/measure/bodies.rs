@@ -1,6 +1,6 @@
 //! The quantities of bodies and of the joints they hang by.
 
-use nalgebra::Vector3;
+use nalgebra::{DVector, Vector3};
 
 use super::value::Value;
 use crate::body::{Twist, Wrench, on_mesh};
@@ -13,6 +13,7 @@ use crate::run::RunError;
 use crate::run::simulation::Simulation;
 use crate::run::snapshot::BodyReport;
 use crate::state::State;
+use crate::structure::Bend;
 
 /// Factors that make coefficients of loads; not numbers without `[scales]`.
 pub(super) struct Coefficients {
@@ -60,6 +61,32 @@ impl MagneticReport {
     }
 }
 
+/// The rod a body is.
+pub(super) struct RodReport {
+    elastic_energy: f64,
+    bend: Bend,
+}
+
+impl RodReport {
+    /// Of a body, if it is one.
+    pub(super) fn of<const D: usize>(
+        problem: &Problem<D>,
+        state: &State<D>,
+        body: usize,
+    ) -> Option<Self> {
+        let (rigid, pose) = (&problem.bodies[body], &state.poses[body]);
+        let flexible = rigid.flexible()?;
+        let own = problem.coordinates()[body].clone();
+        let coordinates = DVector::from_column_slice(&state.shapes.now[own]);
+        let bend = flexible.bend(&coordinates)?;
+        // Places are seen from where the body was put, its pose from where its centre is
+        let from_center = bend.tip - flexible.way_of_center(&coordinates);
+        let tip = pose.center + pose.to_world(&from_center);
+        let elastic_energy = problem.elastic_energy(body, &state.shapes.now, state.time);
+        Some(Self { elastic_energy, bend: Bend { tip, ..bend } })
+    }
+}
+
 /// A body as it moves, with its loads.
 pub(super) struct BodyMotion<'a> {
     pub report: &'a BodyReport,
@@ -68,11 +95,16 @@ pub(super) struct BodyMotion<'a> {
     pub acceleration: &'a Twist,
     pub coefficients: &'a Coefficients,
     pub magnetic: Option<MagneticReport>,
+    pub rod: Option<RodReport>,
 }
 
 impl BodyMotion<'_> {
     fn magnetic_load(&self) -> Option<Wrench> {
         self.magnetic.as_ref().map(|report| report.load)
+    }
+
+    fn of_rod(&self, value: impl Fn(&RodReport) -> f64) -> Value {
+        self.rod.as_ref().map_or(f64::NAN, value).into()
     }
 
     pub(super) fn value(&self, quantity: BodyQuantity) -> Value {
@@ -104,6 +136,9 @@ impl BodyMotion<'_> {
                 let power = |load: Wrench| load.to_vector().dot(&twist.to_vector());
                 self.magnetic_load().map_or(f64::NAN, power).into()
             }
+            BodyQuantity::ElasticEnergy => self.of_rod(|rod| rod.elastic_energy),
+            BodyQuantity::Curvature => self.of_rod(|rod| rod.bend.curvature),
+            BodyQuantity::Tip => Value::of(self.rod.as_ref().map(|rod| rod.bend.tip)),
             BodyQuantity::ContactForce => contact.force.into(),
             BodyQuantity::ContactTorque => contact.torque.into(),
         }

@@ -14,7 +14,9 @@ mod value;
 use alewife_mesh::{Mesh, Point};
 
 pub(super) use self::bodies::measure_joints;
-use self::bodies::{BodyMotion, Coefficients, MagneticReport, body_reports, joint_value};
+use self::bodies::{
+    BodyMotion, Coefficients, MagneticReport, RodReport, body_reports, joint_value,
+};
 pub(super) use self::flow::FlowMeasurement;
 use self::momentum::momentum_record;
 use self::probes::Probes;
@@ -136,6 +138,7 @@ impl<const D: usize> Measure<D> {
                 acceleration: &state.accelerations[body],
                 coefficients: &self.coefficients,
                 magnetic: MagneticReport::of(problem, state, body),
+                rod: RodReport::of(problem, state, body),
             }
             .value(quantity),
             Source::Joint(joint, quantity) => joint_value(&joints[joint], quantity),

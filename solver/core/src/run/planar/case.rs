@@ -13,7 +13,7 @@ use crate::gait::WavingSheet;
 use crate::motion::Limits;
 use crate::motion::MotionSettings;
 use crate::run::RunError;
-use crate::run::build::{limits, motion_settings, shape_motion, sizing};
+use crate::run::build::{limits, motion_settings, rod_shape, shape_motion, sizing};
 use crate::run::start::check_cells;
 
 /// What stays the same over all meshes of a run.
@@ -133,7 +133,10 @@ fn waving_sheet(case: &Case, side: &str) -> Option<WavingSheet> {
 fn placed_bodies(model: &Model) -> Result<Vec<PlacedShape>, RunError> {
     let placed = |body: &Body| {
         let mut placed = body.placed(model.case.mesh.scale);
-        if let Some(motion) = shape_motion(body, model.case.geometry)? {
+        let rod = rod_shape(&model.case, body)?;
+        if let Some(motion) =
+            rod.map_or_else(|| shape_motion(body, model.case.geometry), |rod| Ok(Some(rod)))?
+        {
             let start = motion.at(0.0);
             let start = start.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
             if let Some(shape) = start.shape() {

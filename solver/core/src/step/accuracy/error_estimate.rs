@@ -15,6 +15,10 @@ const WEIGHT_OF_GAPS: f64 = 10.0;
 /// Speed over the largest so far below which the error of a step is no longer relative to it.
 const NEARLY_AT_REST: f64 = 1e-3;
 
+/// Rounding of the places of an elastic body over its size: forces that are differences of large ones amplify that of a
+/// number.
+const ROUNDING_OF_PLACES: f64 = 1e-12;
+
 /// Estimate of the error of a step, relative to the size of the velocities; zero for a step of first
 /// order.
 pub(in crate::step) fn local_error<const D: usize>(
@@ -50,11 +54,22 @@ pub(in crate::step) fn local_error<const D: usize>(
             largest = largest.max(stepper.path.length_of(body, mode) * off.abs());
         }
     }
-    largest = largest.max(stepper.error_of_rates(state, step, new));
+    if !new.rates.is_empty() {
+        largest = largest.max(stepper.error_of_rates(state, step, new));
+        largest = (largest - stepper.rounding_of_speeds(step)).max(0.0);
+    }
     bdf.error_share() * largest / scale
 }
 
 impl<const D: usize> TimeStepper<'_, D> {
+    /// Speed (m/s) within which a step does not tell those of bodies with coordinates: their velocities are differences of
+    /// places.
+    fn rounding_of_speeds(&self, step: &Step) -> f64 {
+        let reach = |body: usize| self.path.length_of(body, Mode::AboutZ);
+        let largest = (0..self.problem.bodies.len()).map(reach).fold(0.0, f64::max);
+        ROUNDING_OF_PLACES * largest * step.bdf.next
+    }
+
     /// Largest difference (m/s) on bodies with coordinates between the velocity that their rates give and a prediction.
     fn error_of_rates(&self, state: &State<D>, step: &Step, new: &Solution<D>) -> f64 {
         let Some(moving) = self.path.moving_mesh().filter(|_| !new.rates.is_empty()) else {

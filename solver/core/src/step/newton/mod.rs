@@ -211,7 +211,9 @@ pub(super) fn newton<const D: usize>(
         }
         let reduced = system.reduced_residual(at, &solution, &residual);
         let size = system.largest_lack(at, &solution, &reduced);
-        let relative = progress.relative(size, system.mean_force(&solution));
+        // What stiff bodies round to moves them, and the fluid with them: nothing smaller is a measure
+        let least = system.mean_force(&solution).max(system.largest_rounding(at, &solution));
+        let relative = progress.relative(size, least);
         equations.on_iteration(iterations, relative);
         let scale = progress.scale();
         if progress.is_converged(relative) && system.meets_mean_velocity(at, &solution) {
@@ -300,13 +302,14 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The size of a residual relative to the scale; `mean_force` is the largest entry of the mean pressure gradient.
-    fn relative(&mut self, size: f64, mean_force: f64) -> f64 {
+    /// The size of a residual relative to the scale, which is at least `least`: the largest entry of the mean pressure
+    /// gradient, or the rounding of stiff bodies.
+    fn relative(&mut self, size: f64, least: f64) -> f64 {
         // A fluid at rest has no residual where a mean velocity is given: the force that brings it
         // about is the measure then
         let scale = match self.scale {
-            None => size.max(mean_force),
-            Some(0.0) => mean_force,
+            None => size.max(least),
+            Some(0.0) => least,
             Some(scale) => scale,
         };
         self.scale = Some(scale);

@@ -8,7 +8,7 @@ use super::surface::{SectionPoint, SurfaceRows};
 use crate::rod::center::center_weights;
 use crate::rod::loads::LineForce;
 use crate::rod::supports::Supports;
-use crate::structure::{Flexible, Held, Load, Structure, Tangents, Weight};
+use crate::structure::{Bend, Flexible, Held, Load, Structure, Tangents, Weight};
 
 /// A planar rod as a body in a flow. Its material points are told by their places where the rod is straight.
 #[derive(Debug)]
@@ -123,5 +123,16 @@ impl Flexible for PlanarRodBody {
 
     fn center_weights(&self) -> Vec<Weight> {
         center_weights(&self.rod)
+    }
+
+    fn bend(&self, coordinates: &DVector<f64>) -> Option<Bend> {
+        let knots = self.rod.knots();
+        let middles = knots.windows(2).map(|ends| 0.5 * (ends[0] + ends[1]));
+        let curvatures = middles.map(|along| self.rod.curvature(coordinates, along));
+        let larger = |most: f64, at: f64| if at.abs() > most.abs() { at } else { most };
+        Some(Bend {
+            tip: self.rod.place(coordinates, *knots.last()?).push(0.0),
+            curvature: curvatures.fold(0.0, larger),
+        })
     }
 }

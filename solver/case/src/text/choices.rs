@@ -1,0 +1,34 @@
+//! Names of tables that hold exactly one of several alternatives.
+
+/// Tables that hold exactly one of several alternatives.
+///
+/// Where two texts name different alternatives, the later one replaces the earlier one whole.
+pub const CHOICES: [&str; 27] = [
+    "kind",
+    "length",
+    "angle",
+    "torque",
+    "force",
+    "copies",
+    "domain",
+    "time",
+    "shape",
+    "motion",
+    "gait",
+    "orientation",
+    "rest_orientation",
+    "contact",
+    "factor",
+    "load_factor",
+    "turn",
+    "beat",
+    "bend",
+    "fields",
+    "series",
+    "until",
+    "viscosity",
+    "curvature",
+    "hold",
+    "moment",
+    "rest",
+];

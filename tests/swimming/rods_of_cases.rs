@@ -1,0 +1,131 @@
+//! Elastic rods from the keys of a case: exact shapes, energies, starts from rest, and runs that are resumed.
+
+use alewife_core::case::Model;
+use alewife_core::run::{RunSummary, SavedState, simulate};
+use tests::cases::{case, column, last, run};
+use tests::{figure, resumed, stopped};
+
+/// A slender body with these keys in a box, which is long enough for it to turn.
+fn slender(time: &str, body: &str) -> Model {
+    case(&format!(
+        r#"
+        title = "a rod in a box"
+        geometry = "planar"
+        fluid = {{ model = "stokes", viscosity = 1.0 }}
+        domain.box = {{ min = [-1.5, -1.2], max = [1.5, 1.2] }}
+        boundary = {{ left = "no-slip", right = "do-nothing", bottom = "no-slip", top = "no-slip" }}
+        mesh = {{ growth = 0.4, gap_layers = 1, moving.layers = 1, size = 0.4, surface = 0.05 }}
+        time.unsteady = {{ {time} }}
+        [[body]]
+        name = "rod"
+        shape.fish = {{ length = 1.0, head_width = 0.08, head_end = 0.08, tail_width = 0.06, tip_radius = 0.02, corner_radius = 0.05 }}
+        center = [0.1, 0.05]
+        motion = "free"
+        {body}
+        "#
+    ))
+}
+
+fn end_of(summary: &RunSummary, names: [&str; 2]) -> [f64; 2] {
+    names.map(|name| last(summary, name))
+}
+
+/// Pulled at its centre.
+#[test]
+fn a_stiff_rod_of_a_case_moves_as_a_rigid_body() {
+    let pulled = |more: &str| {
+        let body = format!("angle = 0.2\nforce = [0.3, -1.0]\n{more}");
+        run(&slender("step = 0.01, end = 0.04", &body))
+    };
+    let [rod, body] = [pulled("rod = { bending = 3000.0, elements = 10 }"), pulled("")];
+    let names = ["rod.velocity.x", "rod.velocity.y"];
+    let ([x, y], [exact_x, exact_y]) = (end_of(&rod, names), end_of(&body, names));
+    let off = (x - exact_x).hypot(y - exact_y) / exact_x.hypot(exact_y);
+    figure!(off, "velocity");
+    assert!(off < 2e-4, "{off}");
+}
+
+/// A straight rod whose muscles want a curvature becomes an arc of a circle where its head is clamped.
+#[test]
+fn a_clamped_rod_is_bent_to_an_arc_by_its_muscles() {
+    const CURVATURE: f64 = 1.2;
+    const BENDING: f64 = 50.0;
+    let body = "rod = { bending = 50.0, elements = 12 }\nattached.hold = \"clamped\"\n\
+                activation.curvature.constant = 1.2";
+    let model = slender("step = 0.01, end = 0.3", body);
+    // Its round end takes a part of the length that is asked for
+    let length = model.bodies[0].shape.profile().expect("it is slender").length();
+    let summary = run(&model);
+    let head_to_tip = {
+        let start = ["rod.tip.x", "rod.tip.y"].map(|name| column(&summary, name)[0]);
+        let end = end_of(&summary, ["rod.tip.x", "rod.tip.y"]);
+        [end[0] - start[0], end[1] - start[1]]
+    };
+    // From the head towards -x, counter-clockwise
+    let (sin, cos) = (CURVATURE * length).sin_cos();
+    let exact = [length - sin / CURVATURE, -(1.0 - cos) / CURVATURE];
+    let off = (head_to_tip[0] - exact[0]).hypot(head_to_tip[1] - exact[1]);
+    let curvature = last(&summary, "rod.curvature") / CURVATURE - 1.0;
+    let stored = column(&summary, "rod.elastic_energy")[0];
+    let energy = stored / (0.5 * BENDING * CURVATURE * CURVATURE * length) - 1.0;
+    figure!(off, "tip");
+    figure!(curvature, "curvature");
+    assert!(
+        off < 1e-3 && curvature.abs() < 1e-3 && energy.abs() < 1e-9,
+        "{off} {curvature} {energy}"
+    );
+}
+
+/// In Stokes flow, while what is given does not change.
+#[test]
+fn what_a_rod_of_a_case_loses_of_its_elastic_energy_is_work_on_the_fluid() {
+    let body = "rod = { bending = 1.0, elements = 12 }\nattached.hold = \"hinged\"\n\
+                activation.curvature.constant = 1.0";
+    let summary = run(&slender("step = 0.002, end = 0.06", body));
+    let [energy, power] = ["rod.elastic_energy", "rod.power"].map(|name| column(&summary, name));
+    // What is soft enough for the steps is left after some of them
+    let rows = 10..energy.len();
+    let work: f64 = power[rows.clone()].windows(2).map(|pair| 0.001 * (pair[0] + pair[1])).sum();
+    let lost = energy[rows.start] - energy[rows.end - 1];
+    let defect = work / lost - 1.0;
+    figure!(defect, "work");
+    assert!(lost > 0.0 && defect.abs() < 5e-4, "{lost} {defect}");
+}
+
+fn turned(time: &str, amplitude: &str) -> Model {
+    let body = format!(
+        "rod = {{ bending = 0.05, elements = 16 }}\n\
+         attached.hold.angle.sine = {{ amplitude = \"{amplitude}\", period = 1.0, ramp = 0.5 }}"
+    );
+    slender(time, &body)
+}
+
+/// At first a head moves by less than the rounding of what stretches the rod; steps chosen by their errors begin there.
+#[test]
+fn a_rod_starts_from_rest_by_a_ramp_in_steps_of_any_length() {
+    for time in [
+        "step = 1e-6, end = 3e-6",
+        "step = 1e-3, end = 3e-3",
+        "step = 0.02, end = 0.1, adaptive = { tolerance = 5e-3, largest = 0.04 }",
+    ] {
+        let summary = run(&turned(time, "20 deg"));
+        assert!(last(&summary, "rod.curvature").is_finite(), "{time}");
+    }
+}
+
+/// All numbers of all rows as bits.
+fn bits(outcome: &RunSummary) -> Vec<Vec<u64>> {
+    outcome.series.rows.iter().map(|row| row.iter().map(|x| x.to_bits()).collect()).collect()
+}
+
+#[test]
+fn a_rod_on_a_mesh_that_is_replaced_ends_with_the_same_bits() {
+    let model = turned("step = 0.04, end = 1.0", "70 deg");
+    let whole = simulate::<2>(&model, &mut []).expect("the case runs");
+    assert!(last(&whole, "flow.remeshes") >= 1.0, "{}", last(&whole, "flow.remeshes"));
+    for steps in [3, 18] {
+        let saved: SavedState<2> = stopped(&model, steps);
+        let rest = resumed(&model, &saved).expect("it continues");
+        assert!(bits(&rest) == bits(&whole), "stopped after {steps} steps");
+    }
+}
