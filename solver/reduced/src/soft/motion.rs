@@ -1,4 +1,4 @@
-//! `Plan` and `Trajectory`: what a body is told, and how it moves.
+//! `Plan` and `Trajectory`: what is given of a motion, and how the body moves.
 
 use alewife_solid::solid::{Level, Minimiser, Motion, Scheme, StepInput};
 

@@ -1,4 +1,4 @@
-//! `Fibre`: an active fibre, which pulls or pushes towards the length it is told.
+//! `Fibre`: an active fibre, which pulls or pushes towards a given length.
 
 use nalgebra::Vector3;
 

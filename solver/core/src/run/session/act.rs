@@ -1,4 +1,4 @@
-//! What of a `Session` makes steps or begins anew: by the methods of `Solve`, which are compiled with all optimisation.
+//! What of a `Session` makes steps or starts again: by the methods of `Solve`, which are compiled with all optimisation.
 
 use super::session::{Observers, Session, refused};
 use crate::case::Model;
