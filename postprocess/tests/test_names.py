@@ -90,7 +90,8 @@ def test_words_on_their_page_are_those_of_cases_and_commands() -> None:
     assert words(" ".join(terms)) <= known
 
 
-BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
+# Blocks of code, but for those that a comment in the line before says are not run
+BLOCK = re.compile(r"(?<!-->\n)^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 SHOWN = re.compile(r"#> (.*)$", re.MULTILINE)
 
 
