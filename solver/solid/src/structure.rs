@@ -37,7 +37,7 @@ pub trait Structure: Send + Sync {
     fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64;
 }
 
-/// A structure with a surface, whose material points are told by their places at rest (m).
+/// A structure with a surface, whose material points are named by their places at rest (m).
 ///
 /// Places and velocities are seen from a frame that stays where the body is put at the start. Which coordinates a
 /// point moves with does not depend on where they are.

@@ -10,7 +10,7 @@ use crate::rod::loads::LineForce;
 use crate::rod::supports::Supports;
 use crate::structure::{Bend, Flexible, Held, Load, Structure, Tangents, Weight};
 
-/// A planar rod as a body in a flow. Its material points are told by their places where the rod is straight.
+/// A planar rod as a body in a flow. Its material points are named by their places where the rod is straight.
 #[derive(Debug)]
 pub struct PlanarRodBody {
     rod: PlanarRod,

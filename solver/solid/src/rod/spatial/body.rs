@@ -10,7 +10,7 @@ use crate::rod::loads::LineForce;
 use crate::rod::supports::Supports;
 use crate::structure::{Flexible, Held, Load, Structure, Tangents, Weight};
 
-/// A rod in space as a body in a flow. Its material points are told by their places where the rod is straight.
+/// A rod in space as a body in a flow. Its material points are named by their places where the rod is straight.
 #[derive(Debug)]
 pub struct SpatialRodBody {
     rod: SpatialRod,
