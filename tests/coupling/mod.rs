@@ -6,5 +6,6 @@ mod free;
 mod loads;
 mod magnets;
 mod mean_flow;
+mod sides;
 mod step_errors;
 mod threads;

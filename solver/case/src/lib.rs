@@ -15,7 +15,8 @@ pub use model::region::{normal_axis, opposite};
 pub use model::{Model, SwimmerModel};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
-    ProbeQuantity, Quantity, Shape, Source, SwimmerQuantity, columns, known_quantities,
+    ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, columns,
+    known_quantities,
 };
 pub use read::CaseFile;
 pub use read::library;

@@ -25,7 +25,7 @@ use super::error::SolveError;
 use super::linear_system::{
     Coefficients, Discretised, NewSystem, SolverChoice, SystemSolver, saddle_point, system_solver,
 };
-use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, surface_loads};
+use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, side_loads, surface_loads};
 use super::mass_tolerance::mass_tolerance;
 use super::mean_flow::{CellIntegrals, MeanFlowResponse};
 use super::pressure_mean::PressureMean;
@@ -247,6 +247,7 @@ impl<const D: usize> FluidSystem<D> {
             residual,
         };
         let mut loads = surface_loads(problem, poses, &flow);
+        loads.sides = side_loads(problem, &flow, &self.surface_stress(problem, mesh, solution));
         if self.cell.is_some() {
             for (body, (loads, twist)) in loads.bodies.iter_mut().zip(&solution.twists).enumerate()
             {
