@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from alewife_post import bodies, planes, scene, style, surfaces
-from alewife_post.domains import domain_box, periods
+from alewife_post.cuts import Cut
+from alewife_post.domains import corners_of, domain_box, periods
 from alewife_post.page import Page
 from alewife_post.read import Run, read_field
 from alewife_post.request import Moment, Request
@@ -133,6 +134,25 @@ def direction(run: Run, request: Request, plane: planes.Plane | None) -> tuple[A
     if abs(towards @ up) > 0.99:
         up = np.eye(3)[int(np.argmin(np.abs(towards)))]
     return towards, up
+
+
+def cut(run: Run, moments: list[Moment], request: Request, seen: Seen, moved: Array) -> Cut:
+    """Through the bodies if no plane is asked for, and there as far as the bodies' surroundings."""
+    times = np.array([moment.time for moment in moments])
+    moves = request.plane is None and request.follow is not None
+    if request.plane is not None:
+        plane = planes.parsed(request.plane)
+    else:
+        plane = planes.through_bodies(run, times[:1] if moves else times, seen.box)
+    if moves:
+        plane = replace(plane, origin=plane.origin - moved[0])
+    box = plane.coordinates(corners_of(seen.box))
+    low, high = box.min(axis=0), box.max(axis=0)
+    if not seen.is_whole:
+        near = plane.coordinates(seen.points)
+        low = np.maximum(low, near.min(axis=0) - seen.margin)
+        high = np.minimum(high, near.max(axis=0) + seen.margin)
+    return Cut(plane, low, high, moves)
 
 
 def camera(direction: tuple[Array, Array], corners: Array, aspect: float) -> Camera:

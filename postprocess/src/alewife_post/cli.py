@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from alewife_post import cli_series, packages
+from alewife_post import cli_fields, cli_series, packages
 from alewife_post.read import Run, open_run
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ def main(arguments: list[str] | None = None) -> int:
             ("plot", cli_series.add_plot, cli_series.write_plot),
             ("compare", cli_series.add_compare, cli_series.write_comparison),
             ("inspect", cli_series.add_inspect, cli_series.write_summary),
+            ("report", cli_fields.add_report, cli_fields.write_report),
             ("gallery", _add_gallery, _write_gallery),
             ("series", cli_series.add_plot, cli_series.write_plot),
         ):

@@ -29,6 +29,7 @@ TRAIL = "#f28e2b"
 ARROW = "#e4572e"
 ARROW_IN_BODY = "#ffffff"
 
+STREAMTUBE = "#8aa4b8"
 ISO = "#4f8fc9"
 ISO_OPACITY = 0.4
 """A surface in the fluid, through which bodies are seen."""
@@ -162,6 +163,20 @@ def colours(quantity: str, values: Array, share: Array | None = None) -> tuple[s
     if min(-low, high) > 0.2 * largest:
         return look.two_sided, (-largest, largest)
     return look.one_sided, (low, high if high > low else low + 1.0)
+
+
+def beyond(quantity: str, limits: Limits, ends: Limits) -> str:
+    """What the limits of colours leave out, for a legend, and how far that goes."""
+    low, high = limits
+    slack = 1e-6 * (high - low)
+    reached = [end for end in ends if not low - slack <= end <= high + slack]
+    if not reached:
+        return "all values"
+    if quantity == "vorticity":
+        left_out = f"limits leave out {BEYOND:g} % of all {quantity}"
+    else:
+        left_out = f"limits leave out {TAIL[quantity]:g} % of the area at each end"
+    return f"{left_out}, up to {', '.join(f'{end:.3g}' for end in reached)}"
 
 
 def one_colour(colour: str) -> Colormap:
