@@ -159,9 +159,7 @@ def _part(run: Run, shown: scenery.Scenery, part: scenery.Part) -> dict[str, Any
         name: _quantity(run, values, shown.scales[part.name, name], name)
         for name, values in part.values.items()
     }
-    chosen = ""
-    if quantities:
-        chosen = "pressure" if part.name == scenery.BODIES else "speed"
+    chosen = {scenery.FLUID: "speed", scenery.BODIES: "pressure"}.get(part.name, "")
     return {
         "name": part.name,
         "is_lines": part.cells.shape[1] == 2,
@@ -184,7 +182,7 @@ def _quantity(run: Run, values: Array, scale: scenery.Scale, name: str) -> dict[
         "label": style.label(name, run.units),
         "low": f"{low:.3g}",
         "high": f"{high:.3g}",
-        "note": style.beyond(name, scale.limits, scale.ends),
+        "note": style.beyond(name, scale.limits, scale.ends, scale.tail),
         "colours": [matplotlib.colors.to_hex(one) for one in colours],
         "values": _packed(np.round((COLOURS - 1) * share).astype("u1")),
     }

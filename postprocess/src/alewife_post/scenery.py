@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from alewife_post import camera, space, streams, style, surfaces
+from alewife_post.cells import Cells
 from alewife_post.cuts import samples, whole_slice
-from alewife_post.domains import periods
+from alewife_post.domains import domain_box, periods
 from alewife_post.elements import edge_curves, edges, mirrored, quarters, shares
 from alewife_post.fields import nodal_values, settled
 from alewife_post.read import Field, Run, read_field
+from alewife_post.recovered import smooth_pressure
 from alewife_post.request import Moment, Request
 from alewife_post.snapshot import default_view, whole_view
 from alewife_post.walls import walls
@@ -23,8 +25,14 @@ if TYPE_CHECKING:
 Array = np.ndarray
 
 QUANTITIES = ("speed", "pressure", "vorticity")
-FLUID, BODIES = "fluid", "bodies"
+FLUID, BODIES, LINES = "fluid", "bodies", "streamlines"
 """Parts that are coloured by a quantity."""
+HEAD = 0.03
+"""Length of an arrow head on a streamline, likewise."""
+NEAR_SIDES = 0.6
+"""A side that is not further from what is in view than that part of it is in view, too."""
+AROUND = 0.45
+"""Space shown around bodies over what they take."""
 TUBE = 0.003
 """Radius of a streamline over the longest side of what is in view."""
 
@@ -56,6 +64,8 @@ class Scale:
     limits: style.Limits
     ends: tuple[float, float]
     """Least and largest value that is there."""
+    tail: float | None = None
+    """Per cent of the area beyond each limit, if it is not the usual one."""
 
 
 @dataclass(frozen=True)
@@ -128,12 +138,12 @@ def _in_space(run: Run, time: float) -> Scenery:
     flow = settled(run, read_field(frame.path))
     request = Request(quantity="speed", trails=False)
     still = np.zeros((1, 3))
-    seen = camera.seen(run, [moment], request, still)
+    seen = _with_sides(run, flow, camera.seen(run, [moment], request, still, AROUND))
     cut = camera.cut(run, [moment], request, seen, still)
     parts, scales = [], {}
     for name, meshes in (
         (FLUID, [whole_slice(run.case, flow, cut, quantity) for quantity in QUANTITIES]),
-        (BODIES, _bodies(run, flow)),
+        (BODIES, _bodies(run, smooth_pressure(flow))),
     ):
         if not meshes or not meshes[0].n_cells:
             continue
@@ -144,7 +154,9 @@ def _in_space(run: Run, time: float) -> Scenery:
         for quantity, mesh in zip(QUANTITIES, meshes, strict=True):
             own = values[quantity]
             ends = (float(own.min()), float(own.max()))
-            scales[name, quantity] = Scale(*style.colours(quantity, *samples(mesh)), ends)
+            tail = style.ON_BODIES if name == BODIES else style.IN_SCENES
+            look = style.colours(quantity, *samples(mesh), tail)
+            scales[name, quantity] = Scale(*look, ends, tail)
         colour = style.BODY if name == BODIES else style.FLUID
         parts.append(_triangles(name, meshes[0], colour, values=values))
     extent = float(np.ptp(seen.box, axis=0).max())
@@ -155,8 +167,35 @@ def _in_space(run: Run, time: float) -> Scenery:
     parts += _sides(run, moment, seen)
     if not periods(run.case).any():
         parts += _streamlines(flow, seen.box, extent)
+        if parts[-1].name == LINES:
+            # They are of the colours of the fluid about them
+            scales[LINES, "speed"] = scales.get((FLUID, "speed")) or _plain(parts[-1])
     towards, up = camera.direction(run, request, cut.plane)
     return Scenery(frame.time, parts, scales, seen.box, towards, up, cut.plane.text)
+
+
+def _with_sides(run: Run, flow: Field, seen: camera.Seen) -> camera.Seen:
+    """What is in view, as far as sides that are near: a tube around its sphere, a wall below it."""
+    if seen.is_whole:
+        return seen
+    low, high = domain_box(run.case)
+    if not np.isfinite(low).all():
+        low, high = flow.nodes.min(axis=0), flow.nodes.max(axis=0)
+    reach = NEAR_SIDES * np.ptp(seen.box, axis=0)
+    box = np.array([
+        np.where(seen.box[0] - low <= reach, low, seen.box[0]),
+        np.where(high - seen.box[1] <= reach, high, seen.box[1]),
+    ])  # fmt: skip
+    if np.array_equal(box, seen.box):
+        return seen
+    margin = float(np.ptp(box, axis=0).max())
+    return replace(seen, box=box, margin=margin)
+
+
+def _plain(part: Part) -> Scale:
+    own = part.values["speed"]
+    ends = (float(own.min()), float(own.max()))
+    return Scale(*style.colours("speed", own), ends)
 
 
 def _bodies(run: Run, flow: Field) -> list[pyvista.PolyData]:
@@ -172,7 +211,10 @@ def _bodies(run: Run, flow: Field) -> list[pyvista.PolyData]:
 
 def _sides(run: Run, moment: Moment, seen: camera.Seen) -> list[Part]:
     found = []
-    for mesh, look in walls(run, [moment], is_whole=seen.is_whole):
+    for wall, look in walls(run, [moment], is_whole=seen.is_whole):
+        mesh = wall if seen.is_whole else _clipped(wall, seen.box)
+        if mesh.n_cells == 0:
+            continue
         if "line_width" in look:
             lines = [np.asarray(mesh.points)[ends] for ends in mesh.lines.reshape(-1, 3)[:, 1:]]
             found.append(_lines("sides", lines, look["color"]))
@@ -181,16 +223,53 @@ def _sides(run: Run, moment: Moment, seen: camera.Seen) -> list[Part]:
     return found
 
 
+def _clipped(wall: pyvista.PolyData, box: Array) -> pyvista.PolyData:
+    """What of a side is in view."""
+    for axis in range(3):
+        for end, sign in zip(box[:, axis], (-1.0, 1.0), strict=True):
+            if wall.n_cells:
+                origin = np.where(np.arange(3) == axis, end, 0.0)
+                wall = wall.clip(normal=sign * np.eye(3)[axis], origin=origin)
+    return wall
+
+
 def _streamlines(flow: Field, box: Array, extent: float) -> list[Part]:
     import pyvista
 
     lines = streams.streamlines(flow, box)
     if not lines:
         return []
-    tubes = pyvista.merge(
-        [pyvista.lines_from_points(line).tube(radius=TUBE * extent, n_sides=6) for line in lines]
+    mesh = Cells(flow)
+    tubes = []
+    for line in lines:
+        one = pyvista.lines_from_points(line)
+        found = mesh.find(line)
+        one.point_data["speed"] = np.nan_to_num(mesh.at(found, nodal_values(flow, "speed")))
+        tubes.append(one.tube(radius=TUBE * extent, n_sides=6))
+        tubes += _heads(mesh, line, HEAD * extent)
+    every = pyvista.merge(tubes).triangulate()
+    values = {"speed": np.asarray(every.point_data["speed"], dtype=float)}
+    return [_triangles(LINES, every, style.STREAMTUBE, values=values)]
+
+
+def _heads(mesh: Cells, line: Array, length: float) -> list[pyvista.PolyData]:
+    """A cone on the middle of a line, the way the fluid goes."""
+    import pyvista
+
+    middle = line[len(line) // 2]
+    (velocity,) = mesh.at(mesh.find(middle[None]), mesh.field.velocity)
+    speed = float(np.linalg.norm(velocity))
+    if not speed > 0.0:
+        return []
+    cone = pyvista.Cone(
+        center=middle,
+        direction=velocity / speed,
+        height=length,
+        radius=0.35 * length,
+        resolution=12,
     )
-    return [_triangles("streamlines", tubes, style.STREAMTUBE)]
+    cone.point_data["speed"] = np.full(cone.n_points, speed)
+    return [cone.triangulate()]
 
 
 def _triangles(

@@ -99,7 +99,7 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
         corners = np.concatenate([cut.corners(), seen.points])
     direction = view.direction(run, request, cut and cut.plane)
     camera = view.camera(direction, corners, page.pixels[0] / page.pixels[1])
-    view.legend(page, camera, units)
+    view.legend(page.axes, page.pixels, camera, units)
     size = [finer * side for side in page.pixels]
     plotter = pyvista.Plotter(off_screen=True, window_size=size)
     plotter.set_background("white")

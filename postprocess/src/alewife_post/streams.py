@@ -21,6 +21,8 @@ LENGTH = 1.5
 """Longest way of a line, each way, over the longest side of the box."""
 SHORTEST = 0.25
 """Shortest, likewise."""
+MOST_TURN = 1.2 * np.pi
+"""Angle (rad) by which a line turns at most, from its middle each way."""
 POINTS = 160
 """Points of a line at most."""
 
@@ -52,7 +54,7 @@ def streamlines(field: Field, box: Array) -> list[Array]:
         max_steps=1500,
         compute_vorticity=False,
     )
-    lines = [_inside(line, box) for line in curves(found)]
+    lines = [_inside(_unwound(line), box) for line in curves(found)]
     lines = [line[:: max(1, len(line) // POINTS)] for line in lines if len(line) > 2]
     lengths = [np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in lines]
     order = [nth for nth in np.argsort(lengths)[::-1] if lengths[nth] > SHORTEST * extent]
@@ -68,6 +70,18 @@ def halton(n: int, bases: tuple[int, ...] = (2, 3, 5)) -> Array:
             found[:, axis] += share * (left % base)
             left, share = left // base, share / base
     return found
+
+
+def _unwound(line: Array) -> Array:
+    """A line up to where it has turned so far that it winds: there errors of a closed one show."""
+    steps = np.diff(line, axis=0)
+    size = np.linalg.norm(steps, axis=1)
+    steps = steps[size > 0.0] / size[size > 0.0, None]
+    turn = np.arccos(np.clip((steps[:-1] * steps[1:]).sum(axis=1), -1.0, 1.0))
+    # From the middle, both ways
+    at = np.cumsum(np.append([0.0, 0.0], turn))
+    kept = np.abs(at - at[len(at) // 2]) <= MOST_TURN
+    return line[: len(at)][kept]
 
 
 def _inside(line: Array, box: Array) -> Array:

@@ -14,6 +14,10 @@ from alewife_post.request import Moment
 if TYPE_CHECKING:
     import pyvista
 
+Array = np.ndarray
+
+SIDES = (("left", "right"), ("bottom", "top"), ("back", "front"))
+"""Of a box, across each axis."""
 LINES = {"color": style.EDGE, "line_width": 1.5, "lighting": False}
 GLASS = {"color": style.EDGE, "opacity": 0.12, "lighting": False}
 
@@ -32,7 +36,7 @@ def walls(
         case "box":
             low, high = domain_box(run.case)
             edges = pyvista.Box(np.array([low, high]).T.ravel()).extract_feature_edges()
-            return [(edges, LINES)]
+            return [(edges, LINES), *((side, GLASS) for side in _no_slip(run, low, high))]
         case "cylinder":
             start, end = domain["x"]
             tube = pyvista.Cylinder(
@@ -57,3 +61,20 @@ def walls(
             ball = pyvista.Icosphere(radius=radius, center=center, nsub=4)
             return [(ball, GLASS)]
     return []
+
+
+def _no_slip(run: Run, low: Array, high: Array) -> list[pyvista.PolyData]:
+    """The sides of a box at which fluid sticks."""
+    import pyvista
+
+    found = []
+    for axis, names in enumerate(SIDES):
+        for name, end in zip(names, (low, high), strict=True):
+            if run.case.get("boundary", {}).get(name) == "no-slip":
+                across = [other for other in range(3) if other != axis]
+                corners = np.tile(end, (4, 1))
+                corners[:, across[0]] = np.array([low, high, high, low])[:, across[0]]
+                corners[:, across[1]] = np.array([low, low, high, high])[:, across[1]]
+                faces = np.array([[0, 1, 2], [0, 2, 3]])
+                found.append(pyvista.PolyData.from_regular_faces(corners, faces))
+    return found

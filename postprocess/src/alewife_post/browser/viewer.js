@@ -157,10 +157,8 @@ async function begin(given) {
     if (part.chosen) await paint(objects[i], part, part.chosen);
   }
   choices(tools, legends, given.parts, objects, draw);
-  [...legends.children].forEach((own, nth) => {
-    const part = given.parts.filter((one) => one.chosen)[nth];
-    legend(own, part, part.chosen);
-  });
+  const coloured = given.parts.filter((one) => Object.keys(one.quantities).length > 0);
+  [...legends.children].forEach((own, nth) => legend(own, coloured[nth], coloured[nth].chosen));
   switches(tools, given.parts, objects, draw);
   const views = [["as first seen", given.towards, given.up], ["x", [1, 0, 0], [0, 0, 1]], ["y", [0, -1, 0], [0, 0, 1]], ["z", [0, 0, 1], [0, 1, 0]]];
   for (const [name, towards, up] of given.is_spatial ? views : views.slice(0, 1)) {
