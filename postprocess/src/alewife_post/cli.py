@@ -29,6 +29,9 @@ def main(arguments: list[str] | None = None) -> int:
             ("compare", cli_series.add_compare, cli_series.write_comparison),
             ("inspect", cli_series.add_inspect, cli_series.write_summary),
             ("report", cli_fields.add_report, cli_fields.write_report),
+            ("line", cli_fields.add_line, cli_fields.write_line),
+            ("section", cli_fields.add_section, cli_fields.write_section),
+            ("decay", cli_fields.add_decay, cli_fields.write_decay),
             ("gallery", _add_gallery, _write_gallery),
             ("series", cli_series.add_plot, cli_series.write_plot),
         ):

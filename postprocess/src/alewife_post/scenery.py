@@ -29,7 +29,7 @@ FLUID, BODIES, LINES = "fluid", "bodies", "streamlines"
 """Parts that are coloured by a quantity."""
 HEAD = 0.03
 """Length of an arrow head on a streamline, likewise."""
-NEAR_SIDES = 0.6
+NEAR_SIDES = 1.3
 """A side that is not further from what is in view than that part of it is in view, too."""
 AROUND = 0.45
 """Space shown around bodies over what they take."""
