@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from alewife_post import bodies, planes, scene, style, surfaces
-from alewife_post.domains import domain_box, periods
-from alewife_post.page import Page
+from alewife_post.cuts import Cut
+from alewife_post.domains import corners_of, domain_box, periods
 from alewife_post.read import Run, read_field
 from alewife_post.request import Moment, Request
 
@@ -63,7 +64,9 @@ class Seen:
     """Length shown around the bodies."""
 
 
-def seen(run: Run, moments: list[Moment], request: Request, moved: Array) -> Seen:
+def seen(
+    run: Run, moments: list[Moment], request: Request, moved: Array, around: float = MARGIN
+) -> Seen:
     """What is in view in all frames: what is around the bodies, or a domain that is small."""
     low, high = domain_box(run.case)
     if not np.isfinite(low).all() and run.fields:
@@ -87,7 +90,7 @@ def seen(run: Run, moments: list[Moment], request: Request, moved: Array) -> See
     is_large = (domain[1] - domain[0]).max() >= WHOLE * extent
     if request.follow is None and not is_large:
         return Seen(domain, found.reshape(-1, 3), True, 0.0)
-    share = 0.1 if request.surface or request.quantity == "bodies" else MARGIN
+    share = 0.1 if request.surface or request.quantity == "bodies" else around
     if request.follow is not None:
         share = max(share, 1.0)
     margin = share * extent
@@ -135,6 +138,25 @@ def direction(run: Run, request: Request, plane: planes.Plane | None) -> tuple[A
     return towards, up
 
 
+def cut(run: Run, moments: list[Moment], request: Request, seen: Seen, moved: Array) -> Cut:
+    """Through the bodies if no plane is asked for, and there as far as the bodies' surroundings."""
+    times = np.array([moment.time for moment in moments])
+    moves = request.plane is None and request.follow is not None
+    if request.plane is not None:
+        plane = planes.parsed(request.plane)
+    else:
+        plane = planes.through_bodies(run, times[:1] if moves else times, seen.box)
+    if moves:
+        plane = replace(plane, origin=plane.origin - moved[0])
+    box = plane.coordinates(corners_of(seen.box))
+    low, high = box.min(axis=0), box.max(axis=0)
+    if not seen.is_whole:
+        near = plane.coordinates(seen.points)
+        low = np.maximum(low, near.min(axis=0) - seen.margin)
+        high = np.minimum(high, near.max(axis=0) + seen.margin)
+    return Cut(plane, low, high, moves)
+
+
 def camera(direction: tuple[Array, Array], corners: Array, aspect: float) -> Camera:
     """The camera that has all corners `(n, 3)` in full view."""
     towards, up = direction
@@ -157,17 +179,17 @@ def beyond(run: Run) -> Array:
     return np.where(periods(run.case) > 0, largest, 0.0)
 
 
-def legend(page: Page, camera: Camera, units: str) -> None:
+def legend(axes: Axes, pixels: tuple[float, float], camera: Camera, units: str) -> None:
     """Directions of the axes and a length, in the lower corners."""
-    page.axes.set_axis_off()
-    page.axes.set_xlim(0, 1)
-    page.axes.set_ylim(0, 1)
-    width, height = page.pixels
+    axes.set_axis_off()
+    axes.set_xlim(0, 1)
+    axes.set_ylim(0, 1)
+    width, height = pixels
     root, reach = np.array([50.0, 50.0]), 32.0
     for name, axis in zip("xyz", np.eye(3), strict=True):
         tip = np.array([camera.right @ axis, camera.up @ axis])
         end = root + reach * tip
-        page.axes.annotate(
+        axes.annotate(
             "",
             end / (width, height),
             root / (width, height),
@@ -180,11 +202,11 @@ def legend(page: Page, camera: Camera, units: str) -> None:
         )
         at = (root + (reach + 9) * tip) / (width, height)
         if np.linalg.norm(tip) > 0.15:
-            page.axes.text(*at, name, ha="center", va="center", fontsize=8)
+            axes.text(*at, name, ha="center", va="center", fontsize=8)
     across = 2 * camera.scale * width / height
     length = style.round_length(0.2 * across)
     end = 1.0 - 20.0 / width
     start = end - length / across
-    page.axes.plot([start, end], [30 / height] * 2, color=style.BOUNDARY, lw=2, zorder=20)
+    axes.plot([start, end], [30 / height] * 2, color=style.BOUNDARY, lw=2, zorder=20)
     text = style.length_text(length, units)
-    page.axes.text(0.5 * (start + end), 36 / height, text, ha="center", va="bottom", fontsize=8)
+    axes.text(0.5 * (start + end), 36 / height, text, ha="center", va="bottom", fontsize=8)

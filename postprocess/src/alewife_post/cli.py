@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from alewife_post import cli_series, packages
+from alewife_post import cli_fields, cli_series, packages
 from alewife_post.read import Run, open_run
 
 if TYPE_CHECKING:
@@ -28,6 +28,10 @@ def main(arguments: list[str] | None = None) -> int:
             ("plot", cli_series.add_plot, cli_series.write_plot),
             ("compare", cli_series.add_compare, cli_series.write_comparison),
             ("inspect", cli_series.add_inspect, cli_series.write_summary),
+            ("report", cli_fields.add_report, cli_fields.write_report),
+            ("line", cli_fields.add_line, cli_fields.write_line),
+            ("section", cli_fields.add_section, cli_fields.write_section),
+            ("decay", cli_fields.add_decay, cli_fields.write_decay),
             ("gallery", _add_gallery, _write_gallery),
             ("convert", _add_convert, _convert),
             ("series", cli_series.add_plot, cli_series.write_plot),
@@ -84,6 +88,11 @@ def _add_picture(parser: argparse.ArgumentParser) -> None:
     _add_run(parser)
     _add_look(parser, figure.QUANTITIES)
     parser.add_argument("--time", type=float, help="time of the frame; the last one if absent")
+    parser.add_argument(
+        "--scene",
+        action="store_true",
+        help="in space: fluid on a plane, bodies with pressure, sides, streamlines, names",
+    )
     parser.add_argument("--frame", metavar="BODY", help="subtract the velocity of this body")
     parser.add_argument(
         "--lines", choices=("streamlines", "arrows", "none"), help="streamlines if absent, of speed"
@@ -99,7 +108,7 @@ def _write_picture(options: argparse.Namespace) -> None:
 
 
 def _picture(run: Run, options: argparse.Namespace) -> Figure:
-    from alewife_post import figure, scene, slices, space
+    from alewife_post import figure, scene, slices, space, stills
 
     view = options.view and tuple(options.view)
     if not run.is_spatial:
@@ -117,6 +126,13 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
         )
     if options.iso or (options.follow and not options.slice):
         return _still(run, options)
+    if options.scene:
+        return stills.scene_picture(
+            run,
+            quantity=options.quantity or "speed",
+            time=options.time,
+            look_from=options.camera and tuple(options.camera),
+        )
     if options.surface:
         quantity = options.quantity or "pressure"
         camera = tuple(options.camera or scene.CAMERA)
@@ -323,7 +339,7 @@ def _add_look(parser: argparse.ArgumentParser, quantities: tuple[str, ...]) -> N
 
 
 def _refuse_in_the_plane(options: argparse.Namespace) -> None:
-    if options.surface or options.slice or options.iso:
-        raise ValueError("--surface, --slice and --iso are for runs in space")
+    if options.surface or options.slice or options.iso or getattr(options, "scene", False):
+        raise ValueError("--surface, --slice, --iso and --scene are for runs in space")
     if options.camera:
         raise ValueError("--camera is for runs in space")

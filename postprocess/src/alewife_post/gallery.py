@@ -9,7 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from PIL import Image
 
-from alewife_post import figure, slices, style
+from alewife_post import figure, stills, style
 from alewife_post.read import Run, open_run
 from alewife_post.whole import replacing
 
@@ -52,8 +52,8 @@ def pictures(
 
 
 def default_picture(run: Run) -> Figure:
-    """The picture of a run that `alewife-post picture` makes without options."""
-    return slices.slice_picture(run, "speed") if run.is_spatial else figure.picture(run, "speed")
+    """The scene of a run in space, of any other the picture `alewife-post picture` makes of it."""
+    return stills.scene_picture(run) if run.is_spatial else figure.picture(run, "speed")
 
 
 def small_png(drawn: Figure) -> bytes:

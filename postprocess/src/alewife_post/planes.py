@@ -53,10 +53,15 @@ def straight(axis: int, height: float) -> Plane:
 
 def parsed(text: str) -> Plane:
     """A plane written as `z=0.5`."""
+    return straight(*parsed_axis(text))
+
+
+def parsed_axis(text: str) -> tuple[int, float]:
+    """The axis a plane lies across, and where, written as `z=0.5`."""
     found = re.fullmatch(r"\s*([xyz])\s*=\s*([-+0-9.eE]+)\s*", text)
     if found:
         try:
-            return straight(AXES.index(found[1]), float(found[2]))
+            return AXES.index(found[1]), float(found[2])
         except ValueError:
             pass
     raise ValueError(f"{text} is not a plane: write one such as z=0.5")

@@ -12,6 +12,7 @@ from alewife_post.domains import domain_box
 from alewife_post.drawing import colour_bar
 from alewife_post.periodic import shifts
 from alewife_post.read import Run, check_run
+from alewife_post.recovered import smooth_pressure
 from alewife_post.sections import sample, sections, side_sections
 from alewife_post.snapshot import title
 
@@ -43,7 +44,7 @@ def surface_picture(
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
     style.use()
-    field = run.field(time)
+    field = smooth_pressure(run.field(time))
     surface = surfaces.bodies_surface(run, field, quantity)
     sized = surface.compute_cell_sizes(length=False, volume=False)
     values = np.asarray(sized.point_data_to_cell_data().cell_data["values"])

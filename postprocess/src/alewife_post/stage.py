@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from alewife_post import camera as view
-from alewife_post import isosurfaces, planes, scene, style, surfaces
+from alewife_post import isosurfaces, scene, style, surfaces
 from alewife_post.cast import Cast
 from alewife_post.cuts import Cut, samples, whole_slice
-from alewife_post.domains import corners_of, domain_box
+from alewife_post.domains import corners_of
 from alewife_post.page import Page
 from alewife_post.read import Field, Run
 from alewife_post.request import (
@@ -25,6 +24,7 @@ from alewife_post.request import (
     time_stamp,
 )
 from alewife_post.units import unit_of
+from alewife_post.walls import walls
 
 if TYPE_CHECKING:
     import pyvista
@@ -69,7 +69,7 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
     seen = view.seen(run, moments, request, moved)
     cut, cuts = None, None
     if request.quantity not in ("bodies", "iso") and not request.surface:
-        cut = _cut(run, moments, request, seen, moved)
+        cut = view.cut(run, moments, request, seen, moved)
         cuts = [cut.at(offset) for offset in moved]
     title = run.title
     units = run.units
@@ -99,18 +99,18 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
         corners = np.concatenate([cut.corners(), seen.points])
     direction = view.direction(run, request, cut and cut.plane)
     camera = view.camera(direction, corners, page.pixels[0] / page.pixels[1])
-    view.legend(page, camera, units)
+    view.legend(page.axes, page.pixels, camera, units)
     size = [finer * side for side in page.pixels]
     plotter = pyvista.Plotter(off_screen=True, window_size=size)
     plotter.set_background("white")
     plotter.enable_anti_aliasing("ssaa")
-    walls = _walls(run, moments, is_whole=seen.is_whole)
+    sides = walls(run, moments, is_whole=seen.is_whole)
     cast = Cast(run)
     extent = 2.0 * camera.scale * max(1.0, page.pixels[0] / page.pixels[1])
     try:
         for nth, moment in enumerate(moments):
             plotter.clear_actors()
-            for wall, wall_look in walls:
+            for wall, wall_look in sides:
                 plotter.add_mesh(wall, render=False, **wall_look)
             if parts is not None and parts[nth].n_cells:
                 part = _smooth(parts[nth]) if request.surface else parts[nth]
@@ -128,25 +128,6 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
 
 
 # ---- The flow ------------------------------------------------------------------------------------
-
-
-def _cut(run: Run, moments: list[Moment], request: Request, seen: view.Seen, moved: Array) -> Cut:
-    """Through the bodies if no plane is asked for, and there as far as the bodies' surroundings."""
-    times = np.array([moment.time for moment in moments])
-    moves = request.plane is None and request.follow is not None
-    if request.plane is not None:
-        plane = planes.parsed(request.plane)
-    else:
-        plane = planes.through_bodies(run, times[:1] if moves else times, seen.box)
-    if moves:
-        plane = replace(plane, origin=plane.origin - moved[0])
-    box = plane.coordinates(corners_of(seen.box))
-    low, high = box.min(axis=0), box.max(axis=0)
-    if not seen.is_whole:
-        near = plane.coordinates(seen.points)
-        low = np.maximum(low, near.min(axis=0) - seen.margin)
-        high = np.minimum(high, near.max(axis=0) + seen.margin)
-    return Cut(plane, low, high, moves)
 
 
 def _flow(
@@ -193,50 +174,6 @@ def _isosurfaces(
         raise ValueError(f"no surface of {quantity} {level:g} is in view")
     unit = unit_of(quantity, run.units)
     return found, f"{quantity} {level:.3g}" + (f" {unit}" if unit else "")
-
-
-# ---- What is seen, and from where ----------------------------------------------------------------
-
-
-def _walls(
-    run: Run, moments: list[Moment], *, is_whole: bool
-) -> list[tuple[pyvista.PolyData, dict[str, Any]]]:
-    """The sides of the domain: edges of a box, rims and wall of a tube or of a mesh."""
-    import pyvista
-
-    ((kind, domain),) = run.case["domain"].items()
-    lines = {"color": style.EDGE, "line_width": 1.5, "lighting": False}
-    glass = {"color": style.EDGE, "opacity": 0.12, "lighting": False}
-    match kind:
-        case "box":
-            low, high = domain_box(run.case)
-            edges = pyvista.Box(np.array([low, high]).T.ravel()).extract_feature_edges()
-            return [(edges, lines)]
-        case "cylinder":
-            start, end = domain["x"]
-            tube = pyvista.Cylinder(
-                center=(0.5 * (start + end), 0.0, 0.0),
-                direction=(1.0, 0.0, 0.0),
-                radius=domain["radius"],
-                height=end - start,
-                resolution=96,
-                capping=False,
-            )
-            rims = tube.extract_feature_edges(
-                boundary_edges=True,
-                feature_edges=False,
-                manifold_edges=False,
-                non_manifold_edges=False,
-            )
-            return [(rims, lines), (tube, glass)]
-        case "mesh" if run.fields:
-            return [(surfaces.outer_surface(run.field(moments[0].time)), glass)]
-        case "sphere" if is_whole:
-            center, radius = domain.get("center", (0.0, 0.0, 0.0)), domain["radius"]
-            ball = pyvista.Icosphere(radius=radius, center=center, nsub=4)
-            return [(ball, glass)]
-    # A ball that is far away is left out: it is seen from inside.
-    return []
 
 
 def _smooth(surface: pyvista.PolyData) -> pyvista.PolyData:

@@ -29,6 +29,7 @@ TRAIL = "#f28e2b"
 ARROW = "#e4572e"
 ARROW_IN_BODY = "#ffffff"
 
+STREAMTUBE = "#8aa4b8"
 ISO = "#4f8fc9"
 ISO_OPACITY = 0.4
 """A surface in the fluid, through which bodies are seen."""
@@ -129,19 +130,27 @@ def length_text(length: float, units: Given) -> str:
     return f"{length:g} {unit}" if unit else f"{length:g}"
 
 
+ALL = "all values"
+"""What a legend says of limits that leave out nothing."""
 TAIL = {"speed": 0.1, "pressure": 0.3}
 """Per cent of the area whose values may lie beyond a limit, on each side."""
 
 
+ON_BODIES = 2.0
+"""The same on bodies: where two nearly touch, the pressure in their gap would wash out all else."""
+IN_SCENES = 1.5
+"""The same of fluid in a scene, of which most is far from bodies."""
 BEYOND = 25.0
 """Per cent of all vorticity, by its magnitude and area, that may lie beyond the limits."""
 
 
-def colours(quantity: str, values: Array, share: Array | None = None) -> tuple[str, Limits]:
+def colours(
+    quantity: str, values: Array, share: Array | None = None, tail: float | None = None
+) -> tuple[str, Limits]:
     """Colour map and limits for values `(n,)` that hold shares `(n,)` of the area.
 
     A few extreme values may lie outside the limits: cells crowd at bodies and in gaps, where values
-    are extreme, and hold little of the area.
+    are extreme, and hold little of the area: `tail` per cent of it at each end, else `TAIL`.
     """
     look = LOOKS[quantity]
     share = np.ones(len(values)) if share is None else share
@@ -154,7 +163,7 @@ def colours(quantity: str, values: Array, share: Array | None = None) -> tuple[s
             # Magnitudes, in space
             return look.one_sided, (0.0, largest)
         return look.two_sided, (-largest, largest)
-    tail = TAIL[quantity]
+    tail = TAIL[quantity] if tail is None else tail
     low, high = (percentile(values, share, wanted) for wanted in (tail, 100.0 - tail))
     if quantity == "speed":
         return look.one_sided, (0.0, high or 1.0)
@@ -162,6 +171,21 @@ def colours(quantity: str, values: Array, share: Array | None = None) -> tuple[s
     if min(-low, high) > 0.2 * largest:
         return look.two_sided, (-largest, largest)
     return look.one_sided, (low, high if high > low else low + 1.0)
+
+
+def beyond(quantity: str, limits: Limits, ends: Limits, tail: float | None = None) -> str:
+    """What the limits of colours leave out, for a legend, and how far that goes."""
+    low, high = limits
+    slack = 1e-6 * (high - low)
+    reached = [end for end in ends if not low - slack <= end <= high + slack]
+    if not reached:
+        return ALL
+    if quantity == "vorticity":
+        left_out = f"limits leave out {BEYOND:g} % of all {quantity}"
+    else:
+        share = TAIL[quantity] if tail is None else tail
+        left_out = f"limits leave out {share:g} % of the area at each end"
+    return f"{left_out}, up to {', '.join(f'{end:.3g}' for end in reached)}"
 
 
 def one_colour(colour: str) -> Colormap:

@@ -155,7 +155,7 @@ def as_text(found: dict[str, Any]) -> str:
     if found["references"]:
         lines += ["", _verdicts(found["references"])]
         lines += _columns(
-            [_reference_row(one) for one in found["references"]],
+            [reference_row(one) for one in found["references"]],
             ("quantity", "computed", "reference", "difference", "accepted", "verdict", "kind"),
         )
     return "\n".join(lines)
@@ -196,7 +196,8 @@ def _verdicts(references: Iterable[dict[str, Any]]) -> str:
     return f"{len(verdicts)} references: {', '.join(counts)}"
 
 
-def _reference_row(one: dict[str, Any]) -> dict[str, Any]:
+def reference_row(one: dict[str, Any]) -> dict[str, Any]:
+    """A reference and what came of it, as a row of texts."""
     statistic = f"at {one['at']:g}" if one["statistic"] == "at" else one["statistic"]
     name = one["quantity"] + (f"{asked.MINUS}{one['minus']}" if one["minus"] else "")
     sign = " %" if one["is_relative"] else ""

@@ -21,8 +21,13 @@ ON_SIDE = 1e-3
 SUBDIVISION = 3
 
 
-def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loads VTK)
-    """The surface of the fluid without the sides of the domain, with nodal `values`."""
+def bodies_surface(  # noqa: ANN201  (loads VTK)
+    run: Run, field: Field, quantity: str, subdivision: int = SUBDIVISION
+):
+    """The surface of the fluid without the sides of the domain, with nodal `values`.
+
+    Sides of curved faces are halved `subdivision` times.
+    """
     faces = boundary_faces(field)
     is_side = on_sides(run, field, faces)
     if is_side is not None:
@@ -30,9 +35,9 @@ def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loa
         if lengths.any():
             # Where the mesh is cut open
             is_side |= is_joined(field.nodes, lengths)[faces].all(axis=1)
-        kept = _surface(field, quantity, faces[~is_side])
+        kept = _surface(field, quantity, faces[~is_side], subdivision)
     else:
-        whole = _surface(field, quantity, faces).connectivity("all")
+        whole = _surface(field, quantity, faces, subdivision).connectivity("all")
         cells = whole.faces.reshape(-1, 4)[:, 1:]
         is_outer = _is_on_largest_part(whole)[cells[:, 0]]
         kept = whole.extract_cells(np.flatnonzero(~is_outer))
@@ -54,7 +59,9 @@ def sides_surface(run: Run, field: Field):  # noqa: ANN201  (loads VTK)
     return _surface(field, "speed", faces[is_side])
 
 
-def _surface(field: Field, quantity: str, faces: Array):  # noqa: ANN202  (loads VTK)
+def _surface(  # noqa: ANN202  (loads VTK)
+    field: Field, quantity: str, faces: Array, subdivision: int = SUBDIVISION
+):
     """Curved faces `(n, 6)` as flat triangles, with nodal `values`."""
     import pyvista
 
@@ -62,7 +69,7 @@ def _surface(field: Field, quantity: str, faces: Array):  # noqa: ANN202  (loads
         return pyvista.PolyData()
     grid = pyvista.UnstructuredGrid({QUADRATIC_TRIANGLE: faces}, field.nodes)
     grid.point_data["values"] = nodal_values(field, quantity)
-    return grid.extract_surface(nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface")
+    return grid.extract_surface(nonlinear_subdivision=subdivision, algorithm="dataset_surface")
 
 
 def _is_on_largest_part(surface) -> Array:  # noqa: ANN001  (VTK)
