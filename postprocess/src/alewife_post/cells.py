@@ -1,4 +1,4 @@
-"""Quadratic cells of two or three dimensions: values and slopes within them, points found in them.
+"""Quadratic cells of up to three dimensions: values and slopes within them, points found in them.
 
 Local coordinates of a point are its distances from the sides of the straight cell but the first
 one's, `(d,)`: those of vertices 1, 2 and, in space, 3.
@@ -18,6 +18,7 @@ from alewife_post.read import Field
 Array = np.ndarray
 
 ENDS = {
+    1: np.array([[0, 1]]),
     2: np.array([[0, 1], [1, 2], [2, 0]]),
     3: np.array([[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]]),
 }

@@ -32,6 +32,7 @@ def main(arguments: list[str] | None = None) -> int:
             ("line", cli_fields.add_line, cli_fields.write_line),
             ("section", cli_fields.add_section, cli_fields.write_section),
             ("decay", cli_fields.add_decay, cli_fields.write_decay),
+            ("fields", cli_fields.add_fields, cli_fields.write_fields),
             ("gallery", _add_gallery, _write_gallery),
             ("series", cli_series.add_plot, cli_series.write_plot),
         ):
@@ -82,10 +83,10 @@ def film_command(arguments: list[str] | None = None) -> int:
 
 
 def _add_picture(parser: argparse.ArgumentParser) -> None:
-    from alewife_post import figure
+    from alewife_post import figure, traction
 
     _add_run(parser)
-    _add_look(parser, figure.QUANTITIES)
+    _add_look(parser, (*figure.QUANTITIES, *traction.QUANTITIES))
     parser.add_argument("--time", type=float, help="time of the frame; the last one if absent")
     parser.add_argument(
         "--scene",

@@ -1,4 +1,4 @@
-"""Commands `report`, `line`, `section` and `decay` of `alewife-post`."""
+"""Commands `report`, `line`, `section`, `decay` and `fields` of `alewife-post`."""
 
 from __future__ import annotations
 
@@ -163,6 +163,35 @@ def table(columns: Columns) -> str:
     for row in zip(*columns.values(), strict=True):
         rows.writerow("" if value != value else f"{value:.10g}" for value in row)
     return text.getvalue()
+
+
+# ---- Derived fields ------------------------------------------------------------------------------
+
+
+def add_fields(parser: argparse.ArgumentParser) -> None:
+    """Options of `fields`."""
+    _add_run_and_time(parser)
+    parser.add_argument(
+        "--out", type=Path, help="directory of two VTU files; NAME-fields if absent"
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON")
+
+
+def write_fields(options: argparse.Namespace) -> None:
+    """Vorticity, strain rate, Q, stream function as VTU, and tractions on surfaces."""
+    from alewife_post import exports
+    from alewife_post.cli_series import as_text
+
+    run = _run_at(options)
+    out = options.out or Path(f"{run.path.resolve().name}-fields")
+    found = exports.write_fields(run, options.time, out)
+    if options.json:
+        print(json.dumps(plain(found.rows), indent=2))
+        return
+    if found.rows:
+        print(as_text(found.rows))
+    for path in found.paths:
+        print(f"wrote {path}")
 
 
 # ---- Files ---------------------------------------------------------------------------------------
