@@ -161,9 +161,15 @@ def test_files_have_all_fields(tmp_path: Path) -> None:
         "velocity", "pressure", "vorticity", "strain_rate", "shear_rate", "q", "divergence",
         "viscosity", "stream_function",
     } <= set(fluid.point_data.keys())  # fmt: skip
-    assert {"traction", "viscous_traction", "wall_shear", "normal", "pressure", "body"} <= set(
-        surface.point_data.keys()
-    )
+    assert {
+        "traction",
+        "traction_recovered",
+        "viscous_traction",
+        "wall_shear",
+        "normal",
+        "pressure",
+        "body",
+    } <= set(surface.point_data.keys())
     assert list(surface.field_data["bodies"]) == ["ball", "sides"]
     # Stokes's stream function of the moving sphere, across the whole flow
     r = np.linalg.norm(fluid.points[:, :2], axis=1)

@@ -99,8 +99,8 @@ def _surfaces(field: Field, found: list[traction.Surface]) -> pyvista.Unstructur
     points = np.concatenate([field.nodes[one.nodes] for one in found])
     grid = pyvista.UnstructuredGrid({kind: np.concatenate(facets)}, _spatial(points))
     data = grid.point_data
-    for name in ("traction", "viscous", "normal"):
-        key = {"viscous": "viscous_traction"}.get(name, name)
+    for name in ("traction", "recovered", "viscous", "normal"):
+        key = {"viscous": "viscous_traction", "recovered": "traction_recovered"}.get(name, name)
         data[key] = _spatial(np.concatenate([getattr(one, name) for one in found]))
     data["pressure"] = np.concatenate([field.pressure[one.nodes] for one in found])
     data["wall_shear"] = np.concatenate([_shear(one) for one in found])
@@ -111,8 +111,8 @@ def _surfaces(field: Field, found: list[traction.Surface]) -> pyvista.Unstructur
 
 def _shear(one: traction.Surface) -> Array:
     """Magnitude of the tangential part of the traction."""
-    along = (one.traction * one.normal).sum(axis=1, keepdims=True)
-    return np.linalg.norm(one.traction - along * one.normal, axis=1)
+    along = (one.recovered * one.normal).sum(axis=1, keepdims=True)
+    return np.linalg.norm(one.recovered - along * one.normal, axis=1)
 
 
 def _spatial(values: Array) -> Array:

@@ -50,8 +50,10 @@ class Surface:
     """Into the fluid, `(n, d)`."""
     traction: Array
     """Force of the fluid on it per area, `(n, d)`."""
+    recovered: Array
+    """The same by the recovered gradient, `(n, d)`: smoother, but of another sum."""
     viscous: Array
-    """The traction without that of the pressure, `(n, d)`."""
+    """That without the part of the pressure, `(n, d)`."""
     method: str
     """`residual` or `recovered`."""
     force: Array
@@ -73,14 +75,13 @@ def surfaces_of(run: Run, field: Field) -> list[Surface]:
         nodes = np.unique(facets.nodes)
         normal = -_normals(field, facets.nodes)[nodes]
         viscous = np.einsum("nij,nj->ni", recovered[nodes], normal)
-        traction = viscous - field.pressure[nodes, None] * normal
-        method = RECOVERED
+        smooth = viscous - field.pressure[nodes, None] * normal
+        traction, method = smooth, RECOVERED
         if facets.name != SIDES and _has_residual(run, field):
             traction = _by_residual(run, field, facets, nodes)
-            viscous = traction + field.pressure[nodes, None] * normal
             method = RESIDUAL
         force = _integral(run, field, facets, nodes, traction)
-        found.append(Surface(facets, nodes, normal, traction, viscous, method, force))
+        found.append(Surface(facets, nodes, normal, traction, smooth, viscous, method, force))
     return found
 
 
@@ -90,7 +91,7 @@ def with_quantity(run: Run, field: Field, quantity: str) -> Field:
         return derived.with_quantity(run, field, quantity)
     values = np.zeros(len(field.nodes))
     for one in surfaces_of(run, field):
-        own = one.traction
+        own = one.recovered
         if quantity == "wall-shear":
             own = own - (own * one.normal).sum(axis=1, keepdims=True) * one.normal
         values[one.nodes] = np.linalg.norm(own, axis=1)
