@@ -33,6 +33,7 @@ def main(arguments: list[str] | None = None) -> int:
             ("section", cli_fields.add_section, cli_fields.write_section),
             ("decay", cli_fields.add_decay, cli_fields.write_decay),
             ("fields", cli_fields.add_fields, cli_fields.write_fields),
+            ("trace", cli_fields.add_trace, cli_fields.write_trace),
             ("gallery", _add_gallery, _write_gallery),
             ("series", cli_series.add_plot, cli_series.write_plot),
         ):
@@ -229,6 +230,9 @@ def _add_film(parser: argparse.ArgumentParser) -> None:
         default="none",
         help="in the plane",
     )
+    parser.add_argument(
+        "--particles", type=Path, metavar="DIR", help="draw what `alewife-post trace` wrote as well"
+    )
     parser.add_argument("--no-trails", action="store_true", help="leave out the ways of centres")
 
 
@@ -270,6 +274,7 @@ def _write_film(options: argparse.Namespace) -> None:
         surface=options.surface,
         iso=options.iso,
         camera=options.camera and tuple(options.camera),
+        particles=options.particles,
     )
     film.film(run, options.out, request)
 

@@ -25,6 +25,7 @@ STREAMLINE_ON_LIGHT = "#30363d"
 SERIES = ("#1f5f99", "#3f8f5f", "#8a5a9e", "#b08900", "#4f8a8b")
 REFERENCE = "#c8553d"
 ROD = "#7b8794"
+PARTICLE = "#ff6f59"
 TRAIL = "#f28e2b"
 ARROW = "#e4572e"
 ARROW_IN_BODY = "#ffffff"
