@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from alewife_post import bodies, space, style, surfaces, ways
+from alewife_post import bodies, space, style, surfaces, tracers, ways
 from alewife_post.domains import domain_box
 from alewife_post.messages import Shape, Solid
 from alewife_post.periodic import images, trail
@@ -28,6 +29,7 @@ class Cast:
         self.colours = group_colours(run)
         self.forms: dict[str, tuple[float, Array, Array]] = {}
         self.deforming = bodies.deforming(run)
+        self.tracks: tracers.Tracks | None = None
 
     def form(self, name: str, time: float) -> tuple[Array, Array]:
         """Points `(n, 3)` and triangles `(m, 3)` of a body in its own frame."""
@@ -72,6 +74,8 @@ class Cast:
             plotter.add_mesh(mesh, color=colour, render=False, **style.SOLID)
         if request.trails:
             self._add_trails(plotter, moment.time)
+        if request.particles is not None:
+            self._add_particles(plotter, request.particles, moment.time)
 
     def _needs_mesh(self, names: list[str], time: float) -> bool:
         """Whether a body has a shape that only the mesh knows."""
@@ -116,6 +120,20 @@ class Cast:
         plotter.add_mesh(
             mesh, scalars="colour", rgb=True, smooth_shading=True, render=False, **style.SOLID
         )
+
+    def _add_particles(self, plotter: pyvista.Plotter, path: Path, time: float) -> None:
+        import pyvista
+
+        if self.tracks is None:
+            self.tracks = tracers.read_paths(path)
+        lines, heads = self.tracks.shown(self.run, time)
+        look = {"color": style.PARTICLE, "lighting": False, "render": False}
+        for line in lines:
+            plotter.add_mesh(pyvista.lines_from_points(line), line_width=2.0, **look)
+        if len(heads):
+            plotter.add_mesh(
+                pyvista.PolyData(heads), point_size=6.0, render_points_as_spheres=True, **look
+            )
 
     def _add_trails(self, plotter: pyvista.Plotter, time: float) -> None:
         for times, way in ways.trails(self.run):

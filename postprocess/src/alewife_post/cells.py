@@ -1,4 +1,4 @@
-"""Quadratic cells of two or three dimensions: values and slopes within them, points found in them.
+"""Quadratic cells of up to three dimensions: values and slopes within them, points found in them.
 
 Local coordinates of a point are its distances from the sides of the straight cell but the first
 one's, `(d,)`: those of vertices 1, 2 and, in space, 3.
@@ -18,6 +18,7 @@ from alewife_post.read import Field
 Array = np.ndarray
 
 ENDS = {
+    1: np.array([[0, 1]]),
     2: np.array([[0, 1], [1, 2], [2, 0]]),
     3: np.array([[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]]),
 }
@@ -159,9 +160,18 @@ class Cells:
             levels.insert(0, levels[0].reshape(len(levels[0]) // 2, 2, -1).max(axis=1))
         return levels
 
-    def find(self, points: Array) -> Found:
-        """Cells that hold points `(n, d)`, with images of a periodic domain."""
+    def find(self, points: Array, before: Array | None = None) -> Found:
+        """Cells that hold points `(n, d)`, with images of a periodic domain.
+
+        Points are looked for where they were `before`, numbers `(n,)` of cells, first.
+        """
         cell, local = np.full(len(points), -1), np.zeros(points.shape)
+        if before is not None and len(before):
+            known = np.flatnonzero((before >= 0) & (before < len(self.places)))
+            own, cells, at = self._near(points[known], np.arange(len(known)), before[known])
+            at = self._refined(points[known][own], cells, at)
+            is_in = _corners(at).min(axis=1) >= -OUTSIDE
+            cell[known[own[is_in]]], local[known[own[is_in]]] = cells[is_in], at[is_in]
         for shift in self._shifts(points):
             left = np.flatnonzero(cell < 0)
             for start in range(0, len(left), CHUNK):

@@ -32,6 +32,8 @@ def main(arguments: list[str] | None = None) -> int:
             ("line", cli_fields.add_line, cli_fields.write_line),
             ("section", cli_fields.add_section, cli_fields.write_section),
             ("decay", cli_fields.add_decay, cli_fields.write_decay),
+            ("fields", cli_fields.add_fields, cli_fields.write_fields),
+            ("trace", cli_fields.add_trace, cli_fields.write_trace),
             ("gallery", _add_gallery, _write_gallery),
             ("convert", _add_convert, _convert),
             ("series", cli_series.add_plot, cli_series.write_plot),
@@ -83,10 +85,10 @@ def film_command(arguments: list[str] | None = None) -> int:
 
 
 def _add_picture(parser: argparse.ArgumentParser) -> None:
-    from alewife_post import figure
+    from alewife_post import figure, traction
 
     _add_run(parser)
-    _add_look(parser, figure.QUANTITIES)
+    _add_look(parser, (*figure.QUANTITIES, *traction.QUANTITIES))
     parser.add_argument("--time", type=float, help="time of the frame; the last one if absent")
     parser.add_argument(
         "--scene",
@@ -246,6 +248,9 @@ def _add_film(parser: argparse.ArgumentParser) -> None:
         default="none",
         help="in the plane",
     )
+    parser.add_argument(
+        "--particles", type=Path, metavar="DIR", help="draw what `alewife-post trace` wrote as well"
+    )
     parser.add_argument("--no-trails", action="store_true", help="leave out the ways of centres")
 
 
@@ -287,6 +292,7 @@ def _write_film(options: argparse.Namespace) -> None:
         surface=options.surface,
         iso=options.iso,
         camera=options.camera and tuple(options.camera),
+        particles=options.particles,
     )
     film.film(run, options.out, request)
 

@@ -1,4 +1,4 @@
-"""Commands `report`, `line`, `section` and `decay` of `alewife-post`."""
+"""Commands of `alewife-post` on fields: report, line, section, decay, fields, trace."""
 
 from __future__ import annotations
 
@@ -163,6 +163,88 @@ def table(columns: Columns) -> str:
     for row in zip(*columns.values(), strict=True):
         rows.writerow("" if value != value else f"{value:.10g}" for value in row)
     return text.getvalue()
+
+
+# ---- Derived fields ------------------------------------------------------------------------------
+
+
+def add_fields(parser: argparse.ArgumentParser) -> None:
+    """Options of `fields`."""
+    _add_run_and_time(parser)
+    parser.add_argument(
+        "--out", type=Path, help="directory of two VTU files; NAME-fields if absent"
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON")
+
+
+def write_fields(options: argparse.Namespace) -> None:
+    """Vorticity, strain rate, Q, stream function as VTU, and tractions on surfaces."""
+    from alewife_post import exports
+    from alewife_post.cli_series import as_text
+
+    run = _run_at(options)
+    out = options.out or Path(f"{run.path.resolve().name}-fields")
+    found = exports.write_fields(run, options.time, out)
+    if options.json:
+        print(json.dumps(plain(found.rows), indent=2))
+        return
+    if found.rows:
+        print(as_text(found.rows))
+    for path in found.paths:
+        print(f"wrote {path}")
+
+
+# ---- Particles -----------------------------------------------------------------------------------
+
+
+def add_trace(parser: argparse.ArgumentParser) -> None:
+    """Options of `trace`."""
+    parser.add_argument("run", type=Path, help="run directory")
+    parser.add_argument(
+        "--seed", required=True, metavar="PLACES",
+        help="box=x0,x1,y0,y1 or line=x0,y0,x1,y1 (in space with z), or a CSV file with x, y (, z)",
+    )  # fmt: skip
+    parser.add_argument("--count", type=int, default=100, metavar="N", help="%(default)s")
+    parser.add_argument(
+        "--from", type=float, dest="start", metavar="T", help="first file if absent"
+    )
+    parser.add_argument(
+        "--to", type=float, dest="end", metavar="T", help="last file if absent; may be earlier"
+    )
+    parser.add_argument(
+        "--release", type=float, metavar="DT", help="again so much time apart: streak lines"
+    )
+    parser.add_argument("--outputs", type=int, default=100, metavar="N", help="%(default)s")
+    parser.add_argument("--step", type=float, metavar="DT", help="a quarter of a cell if absent")
+    parser.add_argument("--out", type=Path, help="directory; NAME-paths if absent")
+
+
+def write_trace(options: argparse.Namespace) -> None:
+    """Particles that the stored flow carries: paths, residence, stretching."""
+    from alewife_post import carried, tracers
+
+    run = open_run(options.run)
+    first, last = run.frame(run.fields[0].time if run.fields else None).time, run.frame().time
+    start = first if options.start is None else options.start
+    end = last if options.end is None else options.end
+    if run.is_unsteady:
+        for time in (start, end):
+            run.check_time(time)
+    if start == end:
+        raise ValueError(f"particles begin and end at t = {start:g}: --to says how long they go")
+    if options.outputs < 1 or options.count < 1 or (options.release or 1.0) <= 0.0:
+        raise ValueError("--outputs and --count are 1 at least, --release is positive")
+    seeds = carried.seeds(options.seed, options.count, 3 if run.is_spatial else 2)
+    seeds = carried.in_fluid(run, seeds, start)
+    found = carried.carried(
+        run, seeds, start=start, end=end, outputs=options.outputs, step=options.step,
+        release=options.release,
+    )  # fmt: skip
+    out = options.out or Path(f"{run.path.resolve().name}-paths")
+    left = int((found.left == found.left).sum())
+    print(f"{len(found.seed)} particles, t = {start:g} to {end:g}; {left} left the fluid")
+    for path in tracers.write_paths(run, found, out):
+        print(f"wrote {path}")
 
 
 # ---- Files ---------------------------------------------------------------------------------------

@@ -112,6 +112,7 @@ def mirrored(field: Field) -> Field:
         velocity=joined(field.velocity, flip),
         pressure=joined(field.pressure, 1.0),
         vorticity=joined(field.vorticity, -1.0),
+        derived=None if field.derived is None else joined(field.derived, 1.0),
     )
 
 

@@ -63,5 +63,7 @@ def nodal_values(field: Field, quantity: str) -> Array:
             return field.vorticity if field.vorticity.ndim == 1 else speed(field.vorticity)
         case "pressure":
             return field.pressure
+        case _ if field.derived is not None:
+            return field.derived
         case _:
             raise ValueError(f"{quantity} is no quantity of a flow: speed, pressure or vorticity")

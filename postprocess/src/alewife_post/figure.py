@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from alewife_post import bodies, checked, drawing, style
+from alewife_post.derived import with_quantity
 from alewife_post.drawing import colour_bar
 from alewife_post.elements import mirrored, shares
 from alewife_post.fields import flow_at, nodal_values, prepared
@@ -32,9 +33,9 @@ from alewife_post.snapshot import (
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
-Quantity = Literal["speed", "pressure", "vorticity", "mesh"]
+Quantity = Literal["speed", "pressure", "vorticity", "shear-rate", "q", "mesh"]
 
-QUANTITIES = ("speed", "pressure", "vorticity", "mesh")
+QUANTITIES = ("speed", "pressure", "vorticity", "shear-rate", "q", "mesh")
 IMAGE_WIDTH = 2400
 
 
@@ -64,7 +65,7 @@ def picture(
     view = None if view is None else checked.view(view)
     painter = chosen_painter(painter)
     style.use()
-    field = flow_at(run, time, frame)
+    field = with_quantity(run, flow_at(run, time, frame), quantity)
     view = _seen(run, field, view, follow, mirror=mirror)
     whole = mirrored(field) if run.is_axisymmetric and mirror else field
     flow = prepared(run, field, view, mirror=mirror)

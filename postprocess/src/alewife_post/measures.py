@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from alewife_post import bodies, fields
+from alewife_post import bodies, derived, fields
 from alewife_post.cells import Cells
 from alewife_post.cutting import cut
 from alewife_post.domains import periods
@@ -67,7 +67,10 @@ def line(
     columns |= {f"velocity.{name}": velocity[:, axis] for axis, name in enumerate(names_of(run))}
     columns["speed"] = np.linalg.norm(velocity, axis=1)
     columns["pressure"] = cells.at(found, flow.pressure)
-    columns["vorticity"] = cells.at(found, fields.nodal_values(flow, "vorticity"))
+    vorticity = derived.rates(flow, is_axisymmetric=run.is_axisymmetric).vorticity
+    if vorticity.ndim == 2:
+        vorticity = np.linalg.norm(vorticity, axis=1)
+    columns["vorticity"] = cells.at(found, vorticity)
     if not found.is_inside.any():
         raise ValueError("no point of the line is in the fluid")
     return columns

@@ -88,4 +88,9 @@ def joined(fields: list[Field]) -> Field:
         velocity=np.concatenate([field.velocity for field in fields]),
         pressure=np.concatenate([field.pressure for field in fields]),
         vorticity=np.concatenate([field.vorticity for field in fields]),
+        derived=(
+            None
+            if fields[0].derived is None
+            else np.concatenate([field.derived for field in fields])
+        ),
     )

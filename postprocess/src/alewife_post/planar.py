@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 
-from alewife_post import bodies, domains, drawing, style
+from alewife_post import bodies, domains, drawing, style, tracers
 from alewife_post.elements import mirrored, shares
 from alewife_post.fields import nodal_values, prepared
 from alewife_post.page import Page
@@ -80,9 +80,15 @@ def images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]
         for nth in range(0, len(moments), step)
     ]
     drawing.draw_scale_bar(page.axes, tuple(view), units, np.concatenate(placed))
+    tracks = None if request.particles is None else tracers.read_paths(request.particles)
     for nth, moment in enumerate(moments):
         page.clear()
         _paint_moment(page.axes, run, moment, seen(nth), (request, look))
+        if tracks is not None:
+            is_mirrored = run.is_axisymmetric and request.mirror
+            drawing.draw_particles(
+                page.axes, *tracks.shown(run, moment.time), is_mirrored=is_mirrored
+            )
         _place(page.axes, view + np.repeat(back[nth], 2), moved[nth])
         yield page.image(time_stamp(run, moment.time))
 

@@ -80,6 +80,8 @@ class Field:
     """`(n_nodes,)`."""
     vorticity: Array
     """`(n_nodes,)`, counter-clockwise; in space `(n_nodes, 3)`."""
+    derived: Array | None = None
+    """Another quantity, made of these, `(n_nodes,)`."""
 
 
 @dataclass(frozen=True)

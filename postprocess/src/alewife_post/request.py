@@ -53,6 +53,8 @@ class Request:
     """In space: pressure, or another quantity, on the bodies, and no slice."""
     iso: str | None = None
     """In space: surface of equal `vorticity`, or `vorticity=2.5`, and no slice."""
+    particles: Path | None = None
+    """Paths of particles that are drawn as well."""
     camera: tuple[float, float] | None = None
     """In space: degrees about z and above the horizon."""
 

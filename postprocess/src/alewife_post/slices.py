@@ -21,6 +21,7 @@ from alewife_post import (
     tracing,
 )
 from alewife_post.cuts import Cut, samples, whole_slice, within
+from alewife_post.derived import with_quantity
 from alewife_post.domains import corners_of, domain_box, periods
 from alewife_post.drawing import colour_bar
 from alewife_post.fields import flow_at
@@ -68,7 +69,7 @@ def slice_picture(
     view = None if view is None else checked.view(view)
     painter = chosen_painter(painter)
     style.use()
-    field = flow_at(run, time, frame)
+    field = with_quantity(run, flow_at(run, time, frame), quantity)
     plane_of = within(_plane(run, plane, field), field)
     view = view or _surroundings(run, field, plane_of)
     region = _region(plane_of, view)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from alewife_post import bodies, drawing, scene, style, surfaces
+from alewife_post import bodies, drawing, scene, style, surfaces, traction
 from alewife_post.domains import domain_box
 from alewife_post.drawing import colour_bar
 from alewife_post.periodic import shifts
@@ -44,7 +44,7 @@ def surface_picture(
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
     style.use()
-    field = smooth_pressure(run.field(time))
+    field = traction.with_quantity(run, smooth_pressure(run.field(time)), quantity)
     surface = surfaces.bodies_surface(run, field, quantity)
     sized = surface.compute_cell_sizes(length=False, volume=False)
     values = np.asarray(sized.point_data_to_cell_data().cell_data["values"])

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from alewife_post import bodies, camera, scene, scenery, style
+from alewife_post import bodies, camera, checked, scene, scenery, style
 from alewife_post.drawing import colour_bar
 from alewife_post.read import Run, check_run
 from alewife_post.snapshot import title
@@ -42,6 +42,7 @@ def scene_picture(
     The fluid on a plane through the bodies is coloured by its speed or another quantity, bodies by
     the pressure on them. `look_from` is in degrees about z, from x, and above the horizon.
     """
+    checked.choice("quantity of a scene", quantity, scenery.QUANTITIES)
     check_run(run, is_spatial=True, instead="figure.picture")
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")

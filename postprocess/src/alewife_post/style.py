@@ -25,6 +25,7 @@ STREAMLINE_ON_LIGHT = "#30363d"
 SERIES = ("#1f5f99", "#3f8f5f", "#8a5a9e", "#b08900", "#4f8a8b")
 REFERENCE = "#c8553d"
 ROD = "#7b8794"
+PARTICLE = "#ff6f59"
 TRAIL = "#f28e2b"
 ARROW = "#e4572e"
 ARROW_IN_BODY = "#ffffff"
@@ -77,6 +78,10 @@ LOOKS = {
     "speed": Look("speed", "viridis", "viridis"),
     "pressure": Look("pressure", "cividis", "PuOr_r"),
     "vorticity": Look("vorticity", "Reds", "RdBu_r"),
+    "shear-rate": Look("rate of shear", "magma", "magma"),
+    "q": Look("Q", "Reds", "PiYG_r"),
+    "traction": Look("traction", "magma", "magma"),
+    "wall-shear": Look("wall shear stress", "magma", "magma"),
 }
 
 
@@ -132,7 +137,7 @@ def length_text(length: float, units: Given) -> str:
 
 ALL = "all values"
 """What a legend says of limits that leave out nothing."""
-TAIL = {"speed": 0.1, "pressure": 0.3}
+TAIL = {"speed": 0.1, "pressure": 0.3, "shear-rate": 1.0, "traction": 1.0, "wall-shear": 1.0}
 """Per cent of the area whose values may lie beyond a limit, on each side."""
 
 
@@ -154,7 +159,7 @@ def colours(
     """
     look = LOOKS[quantity]
     share = np.ones(len(values)) if share is None else share
-    if quantity == "vorticity":
+    if quantity in ("vorticity", "q"):
         # It is nowhere but at bodies and in wakes: parts of the area would depend on how much of
         # the fluid at rest is in view.
         size = np.abs(values)
@@ -165,7 +170,7 @@ def colours(
         return look.two_sided, (-largest, largest)
     tail = TAIL[quantity] if tail is None else tail
     low, high = (percentile(values, share, wanted) for wanted in (tail, 100.0 - tail))
-    if quantity == "speed":
+    if quantity not in ("pressure",):
         return look.one_sided, (0.0, high or 1.0)
     largest = max(abs(low), abs(high)) or 1.0
     if min(-low, high) > 0.2 * largest:
@@ -180,7 +185,7 @@ def beyond(quantity: str, limits: Limits, ends: Limits, tail: float | None = Non
     reached = [end for end in ends if not low - slack <= end <= high + slack]
     if not reached:
         return ALL
-    if quantity == "vorticity":
+    if quantity in ("vorticity", "q"):
         left_out = f"limits leave out {BEYOND:g} % of all {quantity}"
     else:
         share = TAIL[quantity] if tail is None else tail

@@ -67,6 +67,7 @@ def unit_of(dimension: str, given: Given, *, is_planar: bool = False) -> str | N
     """The unit of a dimension; forces of planar runs are those of a unit of depth."""
     own = units_of(given)
     length, time, force = own.length, own.time, own.force
+    stress = ("Pa" if own.is_si else f"{force}/{length}²", force and length)
     per_depth = f"/{length}" if is_planar else ""
     found = {
         "length": (length, length),
@@ -74,10 +75,14 @@ def unit_of(dimension: str, given: Given, *, is_planar: bool = False) -> str | N
         "speed": (f"{length}/{time}", length and time),
         "turn": (f"rad/{time}", time),
         "vorticity": (f"1/{time}", time),
+        "shear-rate": (f"1/{time}", time),
+        "q": (f"1/{time}²", time),
         "acceleration": (f"{length}/{time}²", length and time),
         "force": (f"{force}{per_depth}", force and (length or not is_planar)),
         "torque": (force if is_planar else f"{force} {length}", force and length),
-        "pressure": ("Pa" if own.is_si else f"{force}/{length}²", force and length),
+        "pressure": stress,
+        "traction": stress,
+        "wall-shear": stress,
         "power": (_power(own, is_planar=is_planar), force and length and time),
     }
     text, is_known = found[dimension]

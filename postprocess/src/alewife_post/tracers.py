@@ -1,0 +1,159 @@
+"""Paths of particles as files, and as lines of a film: streak lines, or the end of each way."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from alewife_post.carried import Paths
+from alewife_post.periodic import trail
+from alewife_post.planes import AXES
+from alewife_post.read import Run
+from alewife_post.whole import replacing
+
+Array = np.ndarray
+
+PATHS, PARTICLES, LINES = "paths.csv", "particles.csv", "paths.vtp"
+"""Files of a directory."""
+TAIL = 0.12
+"""Part of the time of all paths that a particle has behind it, where there is no streak line."""
+
+
+def write_paths(run: Run, found: Paths, out: Path) -> list[Path]:
+    """Write all places, a row a particle, and lines for ParaView."""
+    out.mkdir(parents=True, exist_ok=True)
+    for name, text in ((PATHS, _places(found)), (PARTICLES, _particles(found))):
+        with replacing(out / name) as unfinished:
+            unfinished.write_text(text, encoding="utf-8")
+    with replacing(out / LINES) as unfinished:
+        _lines(run, found).save(unfinished)
+    return [out / name for name in (PATHS, PARTICLES, LINES)]
+
+
+def _places(found: Paths) -> str:
+    names = AXES[: found.place.shape[2]]
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(["seed", "released", "time", *names])
+    for n in range(len(found.seed)):
+        for time, place in zip(found.time, found.place[:, n], strict=True):
+            if np.isfinite(place).all():
+                numbers = [f"{value:.10g}" for value in (found.released[n], time, *place)]
+                rows.writerow([found.seed[n], *numbers])
+    return text.getvalue()
+
+
+def _particles(found: Paths) -> str:
+    names = AXES[: found.place.shape[2]]
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(
+        ["seed", "released", "left", "residence", "stretching"]
+        + [f"first.{name}" for name in names]
+        + [f"last.{name}" for name in names]
+    )
+    for n in range(len(found.seed)):
+        way = found.place[np.isfinite(found.place[:, n]).all(axis=1), n]
+        ends = (way[0], way[-1]) if len(way) else (np.full(len(names), np.nan),) * 2
+        values = [found.released[n], found.left[n], found.residence[n], found.stretching[n]]
+        row = ["" if np.isnan(one) else f"{one:.10g}" for one in [*values, *ends[0], *ends[1]]]
+        rows.writerow([found.seed[n], *row])
+    return text.getvalue()
+
+
+def _lines(run: Run, found: Paths):  # noqa: ANN202  (loads VTK)
+    import pyvista
+
+    points, cells, data, start = [], [], {"time": [], "seed": [], "stretching": []}, 0
+    d = found.place.shape[2]
+    for n in range(len(found.seed)):
+        is_there = np.isfinite(found.place[:, n]).all(axis=1)
+        way = np.zeros((is_there.sum(), 3))
+        way[:, :d] = found.place[is_there, n]
+        times = found.time[is_there]
+        at = 0
+        for piece in trail(run.case, way):
+            k = len(piece)
+            points.append(piece)
+            cells.append(np.append(k, start + np.arange(k)))
+            data["time"].append(times[at : at + k])
+            data["seed"].append(np.full(k, found.seed[n]))
+            data["stretching"].append(np.full(k, found.stretching[n]))
+            start, at = start + k, at + k
+    if not points:
+        return pyvista.PolyData()
+    mesh = pyvista.PolyData(np.concatenate(points), lines=np.concatenate(cells))
+    for name, parts in data.items():
+        mesh.point_data[name] = np.concatenate(parts)
+    return mesh
+
+
+@dataclass(frozen=True)
+class Tracks:
+    """Ways of particles as they were written."""
+
+    seed: list[int]
+    released: list[float]
+    time: list[Array]
+    """Of each, `(k,)`, increasing."""
+    place: list[Array]
+    """Of each, `(k, 3)`."""
+
+    def shown(self, run: Run, time: float) -> tuple[list[Array], Array]:
+        """Lines `(k, 3)` and particles `(n, 3)` at a time.
+
+        Of places at which particles were released again and again lines are streak lines, of others
+        the last part of the ways.
+        """
+        span = max(at[-1] for at in self.time) - min(at[0] for at in self.time)
+        own = [n for n, at in enumerate(self.time) if at[0] <= time <= at[-1]]
+        now = {n: _at(self.time[n], self.place[n], time) for n in own}
+        lines = []
+        if len(set(self.released)) > 1:
+            for seed in dict.fromkeys(self.seed[n] for n in own):
+                last = [n for n in own if self.seed[n] == seed]
+                last.sort(key=lambda n: self.released[n])
+                lines.append(np.array([now[n] for n in last]))
+        else:
+            for n in own:
+                kept = (self.time[n] > time - TAIL * span) & (self.time[n] < time)
+                lines.append(np.vstack([self.place[n][kept], now[n]]))
+        parted = [piece for line in lines for piece in trail(run.case, line)]
+        points = [piece[-1:] for n in own for piece in trail(run.case, now[n][None])]
+        heads = np.concatenate(points) if points else np.zeros((0, 3))
+        return [piece for piece in parted if len(piece) > 1], heads
+
+
+def _at(times: Array, places: Array, time: float) -> Array:
+    return np.array([np.interp(time, times, places[:, axis]) for axis in range(3)])
+
+
+def read_paths(path: Path) -> Tracks:
+    """What `write_paths` wrote: the directory, or its table of places."""
+    path = path / PATHS if path.is_dir() else path
+    if not path.is_file():
+        raise FileNotFoundError(f"{path} does not exist: alewife-post trace writes it")
+    table = np.genfromtxt(path, delimiter=",", names=True, ndmin=1)
+    names = table.dtype.names or ()
+    missing = {"seed", "released", "time", "x", "y"} - set(names)
+    if missing or not len(table):
+        what = f"has no column {', '.join(sorted(missing))}" if missing else "has no particle"
+        raise ValueError(f"{path} {what}")
+    place = np.zeros((len(table), 3))
+    for axis, name in enumerate(AXES):
+        if name in names:
+            place[:, axis] = table[name]
+    order = np.lexsort((table["time"], table["released"], table["seed"]))
+    keys = np.column_stack([table["seed"], table["released"]])[order]
+    cuts = np.flatnonzero((np.diff(keys, axis=0) != 0).any(axis=1)) + 1
+    parts = np.split(order, cuts)
+    return Tracks(
+        [int(table["seed"][own[0]]) for own in parts],
+        [float(table["released"][own[0]]) for own in parts],
+        [table["time"][own] for own in parts],
+        [place[own] for own in parts],
+    )
