@@ -4,6 +4,7 @@ mod chains;
 mod derivatives;
 mod ellipsoid;
 mod energy;
+mod fits;
 mod joints;
 mod motions;
 mod stokes;

@@ -1,6 +1,6 @@
 //! A vehicle with the coefficients of the `BlueROV2` Heavy (von Benzon et al. 2022): speeds, ballast, thrusters.
 
-use alewife_reduced::tree::loads::{Load, Vehicle};
+use alewife_reduced::tree::loads::{ElongatedBody, Load, Vehicle};
 use alewife_reduced::tree::{
     Command, Inputs, Lag, Link, Root, Scheme, State, Stepper, Symmetric, Thruster, Thrusters, Tree,
     Weight, Wrench, vector,
@@ -135,4 +135,17 @@ fn thrusters_follow_their_curve_after_their_lag() {
     let step = reached(0.02, 20_000).force.x / settled.force.x;
     let coarse = reached(0.02, 40).force.x / settled.force.x;
     assert!((step - coarse).abs() < 2e-3 && (0.2..0.9).contains(&step), "{step} {coarse}");
+}
+
+/// A slender body whose thrust and drag balance at its speed; without drag it swims at the speed of its wave.
+#[test]
+fn an_elongated_body_swims_where_thrust_is_drag() {
+    let body =
+        ElongatedBody { density: 1000.0, height: 0.1, area: 0.1, drag: 1.35, added_mass: 0.94 };
+    // h = 0.1 sin(7 x - 5 t)
+    let [velocity, slope] = [0.5 * 0.5_f64.powi(2), 0.5 * 0.7_f64.powi(2)];
+    let speed = body.speed(velocity, slope);
+    assert!(body.surplus(speed, velocity, slope).abs() < 1e-12 && speed < 5.0 / 7.0);
+    let ideal = ElongatedBody { drag: 0.0, ..body }.speed(velocity, slope);
+    assert!((ideal - 5.0 / 7.0).abs() < 1e-14);
 }

@@ -1,11 +1,13 @@
 //! Laws of what a fluid does to a rigid body that moves in it: one file each, formula and source above it.
 
 mod ellipsoid;
+mod elongated;
 mod resistive;
 mod strips;
 mod vehicle;
 
 pub use ellipsoid::{AddedMass, Ellipsoid, EllipsoidCoefficients};
+pub use elongated::ElongatedBody;
 pub use resistive::Resistive;
 pub use strips::{StripCoefficients, Strips};
 pub use vehicle::Vehicle;
