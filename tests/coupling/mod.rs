@@ -1,6 +1,7 @@
 //! Fluid and bodies in one system: loads, free motion, reciprocity, energy, frames, threads.
 
 mod blow_up;
+mod driven_sides;
 mod failure;
 mod free;
 mod loads;

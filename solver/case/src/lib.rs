@@ -55,6 +55,8 @@ pub use spec::field::{DipoleField, FieldSpec, LinearField, MagneticSpec, Rotatin
 pub use spec::fluid::mean_flow::MeanFlowSpec;
 pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use spec::fluid::{FlowModel, Fluid};
+pub use spec::formula::{Definitions, Formula, FormulaError, ParsedFormula};
+pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use spec::mesh_file::MeshFile;
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};

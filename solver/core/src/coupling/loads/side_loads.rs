@@ -17,15 +17,16 @@ use crate::body::Wrench;
 /// Force of a side on the fluid by node (N).
 type NodalForces<const D: usize> = BTreeMap<NodeId, Point<D>>;
 
-/// Loads on each boundary that is a side, the torque about the origin; none on bodies and periodic sides.
+/// Loads on each boundary that is a side at a time (s), the torque about the origin; none on bodies and periodic sides.
 #[must_use]
 pub fn side_loads<const D: usize>(
     problem: &Problem<D>,
     flow: &ResidualOnMesh<'_, D>,
     stress: &SurfaceStress<'_, D>,
+    time: f64,
 ) -> Vec<Wrench> {
     let mut loads = vec![Wrench::default(); problem.sides.len()];
-    let tractions = tractions(problem, flow, stress);
+    let tractions = tractions(problem, flow, stress, time);
     for at in flow.boundaries.nodes().filter(|at| at.body.is_none()) {
         let point = &flow.mesh.nodes[at.node];
         for (boundary, force) in shares(problem, &tractions, &at, flow.force_at(at.node)) {
@@ -51,6 +52,7 @@ fn tractions<const D: usize>(
     problem: &Problem<D>,
     flow: &ResidualOnMesh<'_, D>,
     stress: &SurfaceStress<'_, D>,
+    time: f64,
 ) -> Vec<NodalForces<D>> {
     let closed = |at: &BoundaryNode| {
         let sides = at.boundaries.iter();
@@ -63,6 +65,9 @@ fn tractions<const D: usize>(
         match side {
             Some(Side::DoNothing) => {
                 stress.nodal_tractions(boundary, Traction::OfDevelopedFlow, |_| true)
+            }
+            Some(side @ (Side::Pressure(_) | Side::Traction(_))) => {
+                stress.given_tractions(boundary, side, time)
             }
             None | Some(Side::TractionFree | Side::Periodic) => NodalForces::new(),
             Some(Side::Velocity { .. } | Side::Symmetry { .. }) => {

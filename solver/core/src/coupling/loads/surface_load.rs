@@ -6,6 +6,7 @@ use alewife_mesh::{BoundaryId, Mesh, NodeId, Point};
 use nalgebra::SMatrix;
 
 use super::super::boundaries::Boundaries;
+use super::super::problem::Side;
 use crate::body::Wrench;
 use crate::flow::{Fields, Viscosity, squared_shear};
 use crate::space::{FacetRule, Metric};
@@ -136,6 +137,38 @@ impl<const D: usize> SurfaceStress<'_, D> {
                     if wanted.contains(&node) {
                         *sums.entry(node).or_insert_with(Point::<D>::zeros) += force * *phi;
                     }
+                }
+            });
+        }
+        sums
+    }
+
+    /// Integrals over an open side of the traction that it is given at a time (s), with that of a developed flow beside a
+    /// pressure (N).
+    pub(super) fn given_tractions(
+        &self,
+        boundary: BoundaryId,
+        side: &Side<D>,
+        time: f64,
+    ) -> BTreeMap<NodeId, Point<D>> {
+        let mesh = self.mesh;
+        let mut sums = if matches!(side, Side::Pressure(_)) {
+            self.nodal_tractions(boundary, Traction::OfDevelopedFlow, |_| true)
+        } else {
+            BTreeMap::new()
+        };
+        for &facet in self.boundaries.facets_on(boundary) {
+            let facet = &mesh.facets[facet];
+            let (nodes, own): (_, Vec<NodeId>) =
+                (mesh.cell(facet.cell), mesh.facet_nodes(facet).collect());
+            self.rule.for_each_point(mesh, facet, |at| {
+                let area = at.normal_ds.norm();
+                let normal = if area > 0.0 { at.normal_ds / area } else { Point::zeros() };
+                let given = side.given_traction(&at.position, &normal, time);
+                let force = given.unwrap_or_else(Point::zeros) * area;
+                for (&node, phi) in nodes.iter().zip(at.phi).filter(|(node, _)| own.contains(node))
+                {
+                    *sums.entry(node).or_insert_with(Point::<D>::zeros) += force * *phi;
                 }
             });
         }
