@@ -8,6 +8,7 @@ mod flow;
 mod integrals;
 mod momentum;
 mod probes;
+mod steady;
 mod swimmers;
 mod value;
 
@@ -20,6 +21,7 @@ use self::bodies::{
 pub(super) use self::flow::FlowMeasurement;
 use self::momentum::momentum_record;
 use self::probes::Probes;
+pub use self::steady::{BodiesInFlow, steady_value};
 use self::swimmers::SwimmerMeasurement;
 use super::RunError;
 use super::simulation::{CellCrossing, Simulation};
