@@ -5,6 +5,7 @@ mod complete;
 mod exit;
 mod facts;
 mod fidelity;
+mod gradient;
 mod library;
 mod manual;
 mod mesh;
@@ -105,6 +106,8 @@ enum Command {
     },
     /// Run a case and compare it with its references
     Run(run::Options),
+    /// Print how quantities of a steady flow change with numbers of its case
+    Gradient(gradient::Options),
     /// Draw quantities of a run over time, as text
     Plot(plot::Options),
     /// Show how far a run is
@@ -177,6 +180,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
             mesh::mesh(&case, &settings.set, mesh::Target { out, as_text: text })
         }
         Command::Run(options) => run::run(&options),
+        Command::Gradient(options) => gradient::gradient(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),
         Command::Verify(options) => verify::verify(&options),

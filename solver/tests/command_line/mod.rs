@@ -5,6 +5,7 @@ mod commands;
 mod continuing;
 mod costs;
 mod faults;
+mod gradients;
 mod kills;
 mod live;
 mod plotting;

@@ -88,6 +88,22 @@ impl CaseFile {
         numbers
     }
 
+    /// The number that is written at a dotted path, if there is one.
+    #[must_use]
+    pub fn number(&self, path: &str) -> Option<f64> {
+        match self.root.get(path)?.value {
+            TomlValue::Float(value) => Some(value),
+            TomlValue::Integer(value) => Some(value as f64),
+            _ => None,
+        }
+    }
+
+    /// The keys of all numbers that are written, but for those of variants.
+    #[must_use]
+    pub fn number_keys(&self) -> Vec<String> {
+        self.numbers().into_iter().map(|number| number.path).collect()
+    }
+
     /// Name and variant: `sphere-in-tube/free-0.5`.
     #[must_use]
     pub fn full_name(&self) -> String {

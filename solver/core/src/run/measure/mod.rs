@@ -9,6 +9,7 @@ mod integrals;
 mod momentum;
 mod probes;
 mod sides;
+mod steady;
 mod swimmers;
 mod value;
 
@@ -22,6 +23,7 @@ pub(super) use self::flow::FlowMeasurement;
 use self::momentum::momentum_record;
 use self::probes::Probes;
 use self::sides::{measure_sides, side_names};
+pub use self::steady::{BodiesInFlow, steady_value};
 use self::swimmers::SwimmerMeasurement;
 use super::RunError;
 use super::simulation::{CellCrossing, Simulation};
