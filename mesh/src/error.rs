@@ -114,9 +114,9 @@ pub enum MeshError {
         /// Where, y (m).
         y: f64,
     },
-    /// A spline crosses itself.
+    /// An outline crosses itself.
     #[error(
-        "body \"{body}\": the spline crosses itself near ({x:.6e}, {y:.6e}); reorder its points or \
+        "body \"{body}\": the outline crosses itself near ({x:.6e}, {y:.6e}); reorder its points or \
          add some there"
     )]
     SelfIntersection {

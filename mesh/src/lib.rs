@@ -35,7 +35,7 @@ pub use mesh::{
     map_quadratic, shape_functions,
 };
 pub use msh::{
-    Encoding, MshError, Place, read_msh, read_planar_msh, read_spatial_msh, read_undivided_msh,
+    Encoding, MshError, MshOptions, Place, ReadMsh, read_msh, read_msh_with, read_undivided_msh,
     write_msh,
 };
 pub use number::whole;

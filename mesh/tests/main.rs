@@ -3,6 +3,7 @@
 mod closest;
 mod common;
 mod msh;
+mod polygons;
 mod properties;
 mod sizes;
 mod tetrahedra;

@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 29] = [
+const ROOMS: [(&str, &[&str]); 30] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -27,6 +27,7 @@ const ROOMS: [(&str, &[&str]); 29] = [
     ("material", &[]),
     ("solid", &["material"]),
     ("soft", &["material", "solid"]),
+    ("tree", &[]),
     ("time", &["case"]),
     ("body", &["time"]),
     ("contact", &["body"]),
@@ -81,7 +82,15 @@ const ROOMS: [(&str, &[&str]); 29] = [
 
 /// Foreign crates that may be named in some rooms or files only.
 const FOREIGN: [(&str, &[&str]); 9] = [
-    ("num_dual", &["solver/core/src/gait/", "solver/solid/src/material/", "solver/solid/src/rod/"]),
+    (
+        "num_dual",
+        &[
+            "solver/core/src/gait/",
+            "solver/reduced/src/tree/",
+            "solver/solid/src/material/",
+            "solver/solid/src/rod/",
+        ],
+    ),
     (
         "faer",
         &[

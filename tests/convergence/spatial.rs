@@ -1,6 +1,6 @@
 //! Orders in space of tetrahedra, in a box and beside curved bodies.
 
-use alewife_core::coupling::Problem;
+use alewife_core::coupling::{Problem, ResidualAt};
 use alewife_core::space::Metric;
 use alewife_mesh::spatial::{Body, Domain, Shape, generate};
 use alewife_mesh::{BoundaryKind, Mesh, Point, Sizing};
@@ -79,8 +79,8 @@ fn stokes_flow_past_a_sphere_converges_at_the_same_orders_and_its_drag_at_fourth
         let mut work = workspace(&problem, &mesh);
         let flow = steady_with(&mut work, &problem, &SETTINGS, false);
         let poses = [problem.bodies[0].pose];
-        let loads =
-            work.system.surface_loads(&problem, &mesh, &poses, &flow.solution, &flow.residual);
+        let at = ResidualAt { solution: &flow.solution, residual: &flow.residual, time: 0.0 };
+        let loads = work.system.surface_loads(&problem, &mesh, &poses, at);
         let errors = errors(&mesh, &flow.solution, &exact, 0.0, Metric::Cartesian);
         let off = loads.bodies[0].load.force / (6.0 * std::f64::consts::PI) - exact.stream;
         drag.sizes.push(size);

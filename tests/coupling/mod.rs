@@ -1,10 +1,12 @@
 //! Fluid and bodies in one system: loads, free motion, reciprocity, energy, frames, threads.
 
 mod blow_up;
+mod driven_sides;
 mod failure;
 mod free;
 mod loads;
 mod magnets;
 mod mean_flow;
+mod sides;
 mod step_errors;
 mod threads;

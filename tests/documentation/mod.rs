@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use alewife_core::case::{
     BodyQuantity, Case, CaseFile, FlowQuantity, JointQuantity, NamedComponent, ProbeQuantity,
-    Quantity, Reference, ReferenceKind, Severity, SwimmerQuantity, check,
+    Quantity, Reference, ReferenceKind, Severity, SideQuantity, SwimmerQuantity, check,
 };
 
 /// Beginnings of paths that exist on one machine only.
@@ -88,6 +88,7 @@ fn the_tables_of_quantities_are_those_of_the_program() {
         ),
         table("Of each probe, as `NAME.` and:", ProbeQuantity::TABLE),
         table("Of the flow, as `flow.` and:", FlowQuantity::TABLE),
+        table("Of each [side](#boundary), as `SIDE.` and:", SideQuantity::TABLE),
     ];
     let tables = format!("\n{}\n", tables.join("\n"));
     let page = text("docs/case-file.md");

@@ -103,9 +103,9 @@ fn a_body_in_space_ends_with_the_same_bits() {
         title = "an ellipsoid falls through its mesh"
         geometry = "spatial"
         fluid = { model = "navier-stokes", viscosity = 1.0, density = 1.0, gravity = [30.0, 10.0, -20.0] }
-        domain.sphere = { radius = 8.0 }
+        domain.sphere = { radius = 6.0 }
         boundary = { wall = "no-slip" }
-        mesh = { size = 3.0, surface = 0.45, growth = 0.6 }
+        mesh = { size = 3.0, surface = 0.6, growth = 0.6 }
         time.unsteady = { step = 0.05, end = 0.8 }
         [[body]]
         name = "body"

@@ -55,6 +55,8 @@ pub fn fluid_only<const D: usize>(
         groups: Vec::new(),
         frame: None,
         mean_flow: None,
+        force: None,
+        initial: None,
         body_force: None,
         rate_discontinuities: None,
     }

@@ -7,7 +7,10 @@ use super::error::MshError;
 use super::facets::{NAMES, NamedFacets, entity_name};
 use super::file::MshFile;
 use super::kind::node_order;
+use super::options::{MshOptions, ReadMsh};
 use super::parts::{Middle, Parts, edges_of, facet_of};
+use super::pieces::{check_connected, join_pieces};
+use super::plane::Plane;
 use crate::check::check_mesh;
 use crate::mesh::jacobian_coefficients;
 use crate::{Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, Point, Simplex, Topology};
@@ -18,15 +21,11 @@ const IN_MIDDLE: f64 = 1e-12;
 /// The same on the boundary, below which a side is straight.
 const FLAT: f64 = 1e-9;
 
-/// Heights over the plane z = 0 that count as none, in lengths of the mesh.
-const IN_PLANE: f64 = 1e-9;
-
 /// A cell that is flatter than this has no volume: D! times its measure over its longest edge to
 /// the power D.
 const NO_VOLUME: f64 = 1e-14;
 
-/// Reads a mesh of triangles (D = 2) or tetrahedra (D = 3) in MSH 4.1, its lengths multiplied by a
-/// factor.
+/// Reads a mesh of triangles (D = 2) or tetrahedra (D = 3), its lengths multiplied by a factor.
 ///
 /// Cells that are negative are turned, nodes without cells left out, edges inside made straight;
 /// cells with two sides on the boundary are divided at their centroids. Elements that are no cells
@@ -36,9 +35,22 @@ const NO_VOLUME: f64 = 1e-14;
 /// # Errors
 /// [`MshError`] with the place and what would be accepted.
 pub fn read_msh<const D: usize>(bytes: &[u8], scale: f64) -> Result<Mesh<D>, MshError> {
-    let mut read = Read::<D>::of(bytes, scale)?;
+    read_msh_with(bytes, &MshOptions::scaled(scale)).map(|read| read.mesh)
+}
+
+/// The same with more options, and with what was made of the file: facets inside are no sides, pieces that touch are
+/// joined, and a mesh in the plane may be at any z.
+///
+/// # Errors
+/// [`MshError`] with the place and what would be accepted.
+pub fn read_msh_with<const D: usize>(
+    bytes: &[u8],
+    options: &MshOptions,
+) -> Result<ReadMsh<D>, MshError> {
+    let mut read = Read::<D>::of(bytes, options)?;
     divide(&mut read.parts);
-    read.mesh()
+    let notes = std::mem::take(&mut read.parts.notes);
+    Ok(ReadMsh { mesh: read.mesh()?, notes })
 }
 
 /// Reads a mesh as [`read_msh`], with all cells as they are: for elastic bodies, which have no pressure that
@@ -47,7 +59,7 @@ pub fn read_msh<const D: usize>(bytes: &[u8], scale: f64) -> Result<Mesh<D>, Msh
 /// # Errors
 /// [`MshError`] with the place and what would be accepted.
 pub fn read_undivided_msh<const D: usize>(bytes: &[u8], scale: f64) -> Result<Mesh<D>, MshError> {
-    let read = Read::<D>::of(bytes, scale)?;
+    let read = Read::<D>::of(bytes, &MshOptions::scaled(scale))?;
     let mut divided = read.clone();
     divide(&mut divided.parts);
     // It conforms where the divided one does, which is what can be checked
@@ -63,11 +75,15 @@ struct Read<const D: usize> {
 }
 
 impl<const D: usize> Read<D> {
-    fn of(bytes: &[u8], scale: f64) -> Result<Self, MshError> {
-        let file = MshFile::read(bytes)?;
-        let mut facets = NamedFacets::<D>::of(&file)?;
-        facets.forget_unused();
-        let parts = parts_of(&file, &facets, scale)?;
+    fn of(bytes: &[u8], options: &MshOptions) -> Result<Self, MshError> {
+        let mut file = MshFile::read(bytes)?;
+        let n_joined = join_pieces(&mut file, D);
+        let mut facets = NamedFacets::<D>::of(&file, &options.sides)?;
+        let mut parts = parts_of(&file, &mut facets, options.scale)?;
+        if n_joined > 0 {
+            let note = format!("pieces that touch are joined at {n_joined} nodes that coincide");
+            parts.notes.push(note);
+        }
         Ok(Self { parts, boundaries: facets.boundaries })
     }
 
@@ -91,10 +107,11 @@ fn at<const D: usize>(point: &Point<D>) -> String {
 
 fn parts_of<const D: usize>(
     file: &MshFile,
-    facets: &NamedFacets<D>,
+    facets: &mut NamedFacets<D>,
     scale: f64,
 ) -> Result<Parts<D>, MshError> {
     let order = order_of_cells::<D>(file)?;
+    let plane = Plane::of::<D>(file, scale);
     let cells = || {
         let blocks = file.blocks.iter().filter(|block| block.kind.dimension == D);
         blocks.flat_map(|block| block.elements())
@@ -105,7 +122,7 @@ fn parts_of<const D: usize>(
     let mut vertices = Vec::with_capacity(numbers.len());
     for (tag, number) in &mut numbers {
         *number = vertices.len();
-        vertices.push(position::<D>(file, *tag, scale)?);
+        vertices.push(plane.position::<D>(file, *tag)?);
     }
     let mut parts = Parts {
         vertices,
@@ -113,23 +130,33 @@ fn parts_of<const D: usize>(
         tags: Vec::new(),
         sides: BTreeMap::new(),
         middles: BTreeMap::new(),
+        notes: plane.notes(),
     };
+    let mut known_cells = BTreeSet::new();
     for (tag, nodes) in cells() {
         let mut own: Vec<usize> = nodes[..=D].iter().map(|node| numbers[node]).collect();
-        if order == 2 {
+        let mut corners = own.clone();
+        corners.sort_unstable();
+        // A cell in two physical groups may be there twice
+        if !known_cells.insert(corners) {
+            continue;
+        }
+        if order > 1 {
             for (edge, [i, j]) in Simplex::<D>::EDGES.iter().enumerate() {
-                let node = nodes[node_order::<D>()[D + 1 + edge]];
-                if numbers.contains_key(&node) {
+                let first = D + 1 + (order - 1) * (node_order::<D>()[D + 1 + edge] - D - 1);
+                let inner = &nodes[first..first + order - 1];
+                let ends = [own[*i], own[*j]].map(|vertex| parts.vertices[vertex]);
+                let middle = plane.middle::<D>(file, inner, ends)?;
+                if let Some(corner) = inner.iter().find(|node| numbers.contains_key(node)) {
                     let found = format!(
-                        "node {node} is a corner of one element, and inside an \
+                        "node {corner} is a corner of one element, and inside an \
                                          edge of element {tag}"
                     );
                     return Err(MshError::of_mesh(found, "save the whole mesh with one order"));
                 }
                 let ends = [own[*i].min(own[*j]), own[*i].max(own[*j])];
-                let middle = Middle { tag: node, point: position::<D>(file, node, scale)? };
                 let known = parts.middles.insert(ends, middle);
-                if known.is_some_and(|known| known.tag != node) {
+                if known.is_some_and(|known| known.tag != middle.tag) {
                     let found = format!("two nodes in one edge of element {tag}");
                     return Err(MshError::of_mesh(found, "neighbours share nodes"));
                 }
@@ -139,7 +166,7 @@ fn parts_of<const D: usize>(
         parts.cells.push(own);
         parts.tags.push(tag);
     }
-    parts.sides = sides(&parts, facets, &numbers)?;
+    parts.sides = sides(&mut parts, facets, &numbers)?;
     check_connected(&parts)?;
     Ok(parts)
 }
@@ -147,7 +174,7 @@ fn parts_of<const D: usize>(
 /// The order of all cells of a file.
 fn order_of_cells<const D: usize>(file: &MshFile) -> Result<usize, MshError> {
     let [wanted, others] = if D == 2 {
-        ["triangles in the plane z = 0, which a planar case needs", "tetrahedra"]
+        ["triangles in a plane of equal z, which a planar case needs", "tetrahedra"]
     } else {
         ["tetrahedra, which a case in space needs", "no tetrahedra"]
     };
@@ -157,27 +184,18 @@ fn order_of_cells<const D: usize>(file: &MshFile) -> Result<usize, MshError> {
     let mut cells = file.blocks.iter().filter(|b| b.kind.dimension == D && !b.tags.is_empty());
     let Some(first) = cells.next() else {
         let found = if D == 2 { "no triangles" } else { others };
-        return Err(MshError::of_mesh(found.to_owned(), &format!("save {wanted}")));
+        let group = if D == 2 { "Surface" } else { "Volume" };
+        let accepted = format!(
+            "save {wanted}: with physical groups of sides Gmsh saves what is in a group only, so give the fluid \
+             one, too, Physical {group}(\"fluid\") = {{...}}, or set Mesh.SaveAll = 1"
+        );
+        return Err(MshError::of_mesh(found.to_owned(), &accepted));
     };
     if cells.any(|block| block.kind.order != first.kind.order) {
-        let found = "cells of order 1 and of order 2".to_owned();
+        let found = "cells of several orders".to_owned();
         return Err(MshError::of_mesh(found, "save the whole mesh with one order"));
     }
     Ok(first.kind.order)
-}
-
-/// Position of a node (m).
-fn position<const D: usize>(file: &MshFile, tag: u64, scale: f64) -> Result<Point<D>, MshError> {
-    let point = file.nodes.get(&tag).copied().unwrap_or_default() * scale;
-    if D == 2 && point.z.abs() > IN_PLANE * point.amax() {
-        let found = format!("node {tag} has z = {:e}", point.z);
-        return Err(MshError::of_mesh(found, "the mesh of a planar case lies in the plane z = 0"));
-    }
-    if !point.iter().all(|x| x.is_finite() && x.abs() < 1e100) {
-        let found = format!("node {tag} is at {:e}", point.amax());
-        return Err(MshError::of_mesh(found, "coordinates below 1e100 are read"));
-    }
-    Ok(Point::from_fn(|axis, _| point[axis]))
 }
 
 /// Makes a cell positive.
@@ -205,8 +223,8 @@ fn turn<const D: usize>(
 
 /// The boundaries of all facets with one cell.
 fn sides<const D: usize>(
-    parts: &Parts<D>,
-    facets: &NamedFacets<D>,
+    parts: &mut Parts<D>,
+    facets: &mut NamedFacets<D>,
     numbers: &BTreeMap<u64, usize>,
 ) -> Result<BTreeMap<[usize; D], BoundaryId>, MshError> {
     let mut n_cells: HashMap<[usize; D], usize> = HashMap::new();
@@ -225,24 +243,16 @@ fn sides<const D: usize>(
             }
         }
     }
-    let mut named: BTreeMap<[usize; D], BoundaryId> = BTreeMap::new();
-    for (tags, boundary) in &facets.of {
-        // Vertices are numbered in the order of their tags
+    let n_cells_at = |tags: &[u64; D]| {
         let vertices = tags.map(|tag| numbers.get(&tag).copied().unwrap_or(usize::MAX));
-        if n_cells.get(&vertices) == Some(&1) {
-            named.insert(vertices, *boundary);
-            continue;
-        }
-        let name = &facets.boundaries[*boundary].name;
-        let where_it_is = match n_cells.get(&vertices) {
-            Some(_) => "has cells on both sides",
-            None => "is no facet of a cell",
-        };
-        let found = format!("an element of \"{name}\" with node {} {where_it_is}", tags[0]);
-        let accepted =
-            format!("only {}s on the boundary of the fluid get physical names", entity_name::<D>());
-        return Err(MshError::of_mesh(found, &accepted));
-    }
+        n_cells.get(&vertices).copied().unwrap_or(0)
+    };
+    parts.notes.extend(keep_outside(facets, n_cells_at)?);
+    // Vertices are numbered in the order of their tags
+    let vertices =
+        |tags: &[u64; D]| tags.map(|tag| numbers.get(&tag).copied().unwrap_or(usize::MAX));
+    let named: BTreeMap<[usize; D], BoundaryId> =
+        facets.of.iter().map(|(tags, boundary)| (vertices(tags), *boundary)).collect();
     let all = parts.cells.iter().flat_map(|cell| (0..=D).map(|side| facet_of::<D>(cell, side)));
     let mut nameless = all.filter(|facet| n_cells[facet] == 1 && !named.contains_key(facet));
     if let Some(first) = nameless.next() {
@@ -255,35 +265,38 @@ fn sides<const D: usize>(
     Ok(named)
 }
 
-/// Whether all cells are in one piece.
-fn check_connected<const D: usize>(parts: &Parts<D>) -> Result<(), MshError> {
-    let mut pieces: Vec<usize> = (0..parts.vertices.len()).collect();
-    fn root(pieces: &mut [usize], mut at: usize) -> usize {
-        while pieces[at] != at {
-            pieces[at] = pieces[pieces[at]];
-            at = pieces[at];
-        }
-        at
+/// Leaves those facets that have fluid on one side; says which have it on both.
+fn keep_outside<const D: usize>(
+    facets: &mut NamedFacets<D>,
+    n_cells_at: impl Fn(&[u64; D]) -> usize,
+) -> Result<Vec<String>, MshError> {
+    if let Some((_, error)) = facets.several.iter().find(|(tags, _)| n_cells_at(tags) == 1) {
+        return Err(error.clone());
     }
-    let mut n_pieces = pieces.len();
-    for cell in &parts.cells {
-        for vertex in &cell[1..] {
-            let (one, other) = (root(&mut pieces, cell[0]), root(&mut pieces, *vertex));
-            if one != other {
-                pieces[one.max(other)] = one.min(other);
-                n_pieces -= 1;
+    let mut inside: BTreeMap<BoundaryId, usize> = BTreeMap::new();
+    for (tags, boundary) in &facets.of {
+        match n_cells_at(tags) {
+            0 => {
+                let name = &facets.boundaries[*boundary].name;
+                let found =
+                    format!("an element of \"{name}\" with node {} is no facet of a cell", tags[0]);
+                let accepted =
+                    format!("only {}s of the fluid get physical names", entity_name::<D>());
+                return Err(MshError::of_mesh(found, &accepted));
             }
+            1 => {}
+            _ => *inside.entry(*boundary).or_default() += 1,
         }
     }
-    if n_pieces > 1 {
-        let found = format!("{n_pieces} pieces that do not touch");
-        return Err(MshError::of_mesh(
-            found,
-            "the fluid is in one piece: Coherence in Gmsh joins \
-                                             volumes that have the same faces",
-        ));
-    }
-    Ok(())
+    let note = |(boundary, n): (BoundaryId, usize)| {
+        let name = &facets.boundaries[boundary].name;
+        let plural = if n == 1 { "facet" } else { "facets" };
+        format!("{n} {plural} of \"{name}\" with fluid on both sides: inside, and no side")
+    };
+    let notes = inside.into_iter().map(note).collect();
+    facets.of.retain(|tags, _| n_cells_at(tags) == 1);
+    facets.forget_unused();
+    Ok(notes)
 }
 
 /// The mesh, with quadratic nodes and boundary facets.
@@ -291,7 +304,7 @@ fn mesh_of<const D: usize>(
     parts: Parts<D>,
     boundaries: Vec<Boundary>,
 ) -> Result<Mesh<D>, MshError> {
-    let Parts { vertices, cells, tags, sides, middles } = parts;
+    let Parts { vertices, cells, tags, sides, middles, .. } = parts;
     let n_vertices = vertices.len();
     let on_boundary = edges_of(&sides);
     let mut nodes = vertices;

@@ -147,6 +147,44 @@ impl<'a> Input<'a> {
         }
     }
 
+    /// Whether numbers are binary.
+    pub fn is_binary(&self) -> bool {
+        self.is_binary
+    }
+
+    /// A tag of 32 bits, not negative.
+    pub fn tag(&mut self) -> Result<u64, MshError> {
+        let start = self.at;
+        let found = self.integer()?;
+        u64::try_from(found)
+            .map_err(|_| self.refuse_at(start, format!("the tag {found}"), "tags are not negative"))
+    }
+
+    /// A count of 32 bits, never more than the file can hold.
+    pub fn small(&mut self, what: &str) -> Result<usize, MshError> {
+        let start = self.at;
+        let found = self.integer()?;
+        match usize::try_from(found) {
+            Ok(count) if count <= self.bytes.len() - self.at => Ok(count),
+            _ => {
+                let found = format!("{found} {what}");
+                Err(self.refuse_at(start, found, "the file is damaged or cut off"))
+            }
+        }
+    }
+
+    /// A count that is text on a line of its own, as in binary files of version 2.2.
+    pub fn count_in_line(&mut self, what: &str, least_bytes: usize) -> Result<usize, MshError> {
+        let count = self.as_text(|input| input.count(what, least_bytes))?;
+        if self.is_binary && self.bytes.get(self.at) == Some(&b'\r') {
+            self.at += 1;
+        }
+        if self.is_binary && self.bytes.get(self.at) == Some(&b'\n') {
+            self.at += 1;
+        }
+        Ok(count)
+    }
+
     /// A floating-point number, which is finite.
     pub fn float(&mut self) -> Result<f64, MshError> {
         let value: f64 = match self.numbers {

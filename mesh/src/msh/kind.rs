@@ -5,7 +5,7 @@
 pub struct Kind {
     /// Its dimension, 0 to 3.
     pub dimension: usize,
-    /// Order of its map, 1 or 2.
+    /// Order of its map, 1 to 3.
     pub order: usize,
     /// Number of nodes.
     pub n_nodes: usize,
@@ -26,13 +26,16 @@ impl Kind {
             9 => kind(2, 2, 6),
             4 => kind(3, 1, 4),
             11 => kind(3, 2, 10),
+            26 => kind(1, 3, 4),
+            21 => kind(2, 3, 10),
+            29 => kind(3, 3, 20),
             3 | 10 | 16 => Err("quadrangles".to_owned()),
             5 | 12 | 17 => Err("hexahedra".to_owned()),
             6 | 13 | 18 => Err("prisms".to_owned()),
             7 | 14 | 19 => Err("pyramids".to_owned()),
-            20..=25 => Err("triangles of an order above 2".to_owned()),
-            26..=28 => Err("edges of an order above 2".to_owned()),
-            29..=31 => Err("tetrahedra of an order above 2".to_owned()),
+            20 | 22..=25 => Err("triangles of an order above 3".to_owned()),
+            27 | 28 => Err("edges of an order above 3".to_owned()),
+            30 | 31 => Err("tetrahedra of an order above 3".to_owned()),
             _ => Err("an unknown kind".to_owned()),
         }
     }

@@ -17,6 +17,8 @@ pub struct Parts<const D: usize> {
     pub sides: BTreeMap<[usize; D], BoundaryId>,
     /// Tag and position (m) of the nodes given in edges, by the ends in ascending order.
     pub middles: BTreeMap<[usize; 2], Middle<D>>,
+    /// What was made of the file that its author may not expect.
+    pub notes: Vec<String>,
 }
 
 /// A node in an edge.

@@ -6,7 +6,7 @@ use crate::{Domain, MeshError, Outline, PlacedShape, Point, Shape};
 /// Gaps below this fraction of a body's size count as contact: no mesh resolves them.
 pub const SMALLEST_GAP: f64 = 1e-7;
 
-/// Places per quarter at which the search for the smallest gap starts.
+/// Places per quarter, of a polygon a quarter of all places, at which the search for the smallest gap starts.
 const STARTS: usize = 32;
 
 /// Whether bodies can be meshed in a domain: sizes, kinds, names, inside, apart.
@@ -191,13 +191,14 @@ fn check_kind(domain: &Domain, body: &PlacedShape) -> Result<(), MeshError> {
         Shape::Disc { .. } => ("a disc", false),
         Shape::Ellipse { .. } => ("an ellipse", false),
         Shape::Spline { .. } => ("a spline", false),
+        Shape::Polygon { .. } => ("a polygon", false),
         Shape::Curve { .. } => ("a closed curve", false),
         Shape::Sphere { .. } => ("a sphere", true),
         Shape::Spheroid { .. } => ("a spheroid", true),
     };
     if axisymmetric != domain.is_axisymmetric() {
         let (domain, remedy) = if axisymmetric {
-            ("a planar", "disc, ellipse or spline")
+            ("a planar", "disc, ellipse, spline or polygon")
         } else {
             ("an axisymmetric", "sphere or spheroid")
         };
@@ -215,6 +216,9 @@ fn check_kind(domain: &Domain, body: &PlacedShape) -> Result<(), MeshError> {
 
 /// Distance between the extreme points of an outline (m), its larger one.
 fn extent(outline: &Outline) -> f64 {
+    if outline.is_polygon() {
+        return outline.reach();
+    }
     let point = |quarter| outline.evaluate(quarter, 0.0)[0];
     (point(0) - point(2)).norm().max((point(1) - point(3)).norm())
 }
@@ -229,13 +233,15 @@ struct Least {
 
 /// Smallest value of a function over an outline: samples, then golden sections.
 fn least(outline: &Outline, f: impl Fn(Point<2>) -> f64) -> Least {
-    let n = 4 * STARTS;
+    let pieces = outline.n_pieces();
+    let starts = (4 * STARTS / pieces).max(2);
+    let n = pieces * starts;
     let at = |u: f64| {
-        let u = u.rem_euclid(4.0);
-        let quarter = whole(u).min(3);
+        let u = u.rem_euclid(pieces as f64);
+        let quarter = whole(u).min(pieces - 1);
         outline.evaluate(quarter, u - quarter as f64)[0]
     };
-    let step = 1.0 / STARTS as f64;
+    let step = 1.0 / starts as f64;
     let values: Vec<f64> = (0..n).map(|i| f(at(i as f64 * step))).collect();
     let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -1,4 +1,4 @@
-//! `Shape`: disc, sphere, ellipse, spheroid, closed spline; boundary curve and mass moments.
+//! `Shape`: disc, sphere, ellipse, spheroid, closed spline, polygon; boundary curve and mass moments.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::{Point, Spline};
 /// The outline of a body in its own frame, centred on the origin before placement.
 ///
 /// In an axisymmetric domain the shapes are `Sphere` and `Spheroid`; their meridian (y >= 0) is
-/// meshed. In a planar domain they are `Disc`, `Ellipse`, `Spline` and `Curve`.
+/// meshed. In a planar domain they are `Disc`, `Ellipse`, `Spline`, `Polygon` and `Curve`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// Disc of the given radius (planar).
@@ -28,6 +28,11 @@ pub enum Shape {
     /// Closed smooth spline through points listed counter-clockwise (planar).
     Spline {
         /// Points in the body frame (m), not repeated at the end.
+        points: Vec<[f64; 2]>,
+    },
+    /// Polygon with sharp corners listed counter-clockwise (planar).
+    Polygon {
+        /// Corners in the body frame (m), the first not repeated at the end.
         points: Vec<[f64; 2]>,
     },
     /// Closed smooth curve with a parameter of its own, counter-clockwise (planar): the outline of
@@ -68,7 +73,7 @@ pub struct PlacedShape {
 pub struct Moments {
     /// Area (m^2, planar) or volume (m^3, axisymmetric).
     pub measure: f64,
-    /// Centre of area or volume in the body frame (m); only splines have it off their origin.
+    /// Centre of area or volume in the body frame (m); splines and polygons may have it off their origin.
     pub centroid: Point<2>,
     /// Second moments about the centroid.
     pub second: SecondMoments,
@@ -97,13 +102,15 @@ pub enum SecondMoments {
 }
 
 impl Shape {
-    /// Area or volume, centroid and second moments; `None` for a spline without valid points.
+    /// Area or volume, centroid and second moments; `None` for a spline or polygon
+    /// without valid points.
     #[must_use]
     pub fn moments(&self) -> Option<Moments> {
         match self {
             Self::Disc { radius } => Some(planar_ellipse([*radius; 2])),
             Self::Ellipse { semi_axes } => Some(planar_ellipse(*semi_axes)),
             Self::Spline { points } => Spline::through(points).map(|s| spline_moments(&s)),
+            Self::Polygon { points } => polygon_moments(points),
             Self::Curve { spline } => Some(spline_moments(spline)),
             Self::Sphere { radius } => Some(ellipsoid([*radius; 2])),
             Self::Spheroid { semi_axes } => Some(ellipsoid(*semi_axes)),
@@ -146,6 +153,26 @@ fn spline_moments(spline: &Spline) -> Moments {
     Moments { measure: area, centroid, second: SecondMoments::Planar { polar } }
 }
 
+/// By Green's theorem, side by side: exact. About the first corner, for the sake of rounding.
+fn polygon_moments(points: &[[f64; 2]]) -> Option<Moments> {
+    let start = Point::from(*points.first()?);
+    let (mut area, mut first, mut polar) = (0.0, Point::<2>::zeros(), 0.0);
+    for pair in points.windows(2) {
+        let [a, b] = [pair[0], pair[1]].map(|point| Point::from(point) - start);
+        let twice = cross(a, b);
+        area += twice / 2.0;
+        first += (a + b) * (twice / 6.0);
+        polar += twice / 12.0 * (a.norm_squared() + a.dot(&b) + b.norm_squared());
+    }
+    if area.is_nan() || area <= 0.0 {
+        return None;
+    }
+    let centroid = first / area;
+    let polar = polar - area * centroid.norm_squared();
+    let second = SecondMoments::Planar { polar };
+    Some(Moments { measure: area, centroid: start + centroid, second })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -167,6 +194,26 @@ mod tests {
             _ => panic!("is planar"),
         };
         assert!((polar(spline) / polar(exact) - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_rectangle_anywhere_and_a_hollow_polygon_have_the_moments_of_formulas() {
+        let (a, b) = (3.0, 0.5);
+        let at = |x: f64, y: f64| [7.0 + x * 0.8 - y * 0.6, -2.0 + x * 0.6 + y * 0.8];
+        let points = vec![at(0.0, 0.0), at(a, 0.0), at(a, b), at(0.0, b)];
+        let moments = Shape::Polygon { points }.moments().unwrap();
+        assert!((moments.measure - a * b).abs() < 1e-13);
+        assert!((moments.centroid - Point::from(at(a / 2.0, b / 2.0))).norm() < 1e-13);
+        let SecondMoments::Planar { polar } = moments.second else { panic!("is planar") };
+        assert!((polar / (a * b * (a * a + b * b) / 12.0) - 1.0).abs() < 1e-12);
+        // A square of side 2 with a notch of 1 by 1 at its corner
+        let notched = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+        let moments = Shape::Polygon { points: notched.to_vec() }.moments().unwrap();
+        assert!((moments.measure - 3.0).abs() < 1e-14);
+        let center = (4.0 * 1.0 - 1.5) / 3.0;
+        assert!((moments.centroid - Point::<2>::repeat(center)).norm() < 1e-14);
+        let clockwise: Vec<[f64; 2]> = notched.iter().rev().copied().collect();
+        assert_eq!(Shape::Polygon { points: clockwise }.moments(), None);
     }
 
     #[test]

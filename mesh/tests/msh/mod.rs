@@ -2,6 +2,7 @@
 
 mod bodies;
 mod damaged;
+mod others;
 mod refused;
 
 use alewife_mesh::spatial;

@@ -35,6 +35,7 @@ def main(arguments: list[str] | None = None) -> int:
             ("fields", cli_fields.add_fields, cli_fields.write_fields),
             ("trace", cli_fields.add_trace, cli_fields.write_trace),
             ("gallery", _add_gallery, _write_gallery),
+            ("convert", _add_convert, _convert),
             ("series", cli_series.add_plot, cli_series.write_plot),
         ):
             doc = run.__doc__ if name != "series" else "`plot` by its older name."
@@ -200,6 +201,23 @@ def _write_gallery(options: argparse.Namespace) -> int:
             failures += 1
             print(f"alewife-post: {name}: {failure}", file=sys.stderr)
     return int(failures > 0)
+
+
+# ---- Meshes --------------------------------------------------------------------------------------
+
+
+def _add_convert(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("source", type=Path, metavar="IN", help="MED, VTU, XDMF, INP, ...")
+    parser.add_argument("target", type=Path, metavar="OUT", help="the new file, such as mesh.msh")
+
+
+def _convert(options: argparse.Namespace) -> None:
+    """A mesh of another program as a file of Gmsh, for `domain.mesh`."""
+    from alewife_post import convert
+
+    for note in convert.convert(options.source, options.target):
+        print(note)
+    print(f"written to {options.target}")
 
 
 # ---- Films ---------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@ EXTRAS = {
     "pictures": ("matplotlib", "PIL", "pyvista", "vtk", "vtkmodules"),
     "film": ("imageio_ffmpeg",),
     "table": ("pandas",),
+    "meshes": ("h5py", "meshio"),
 }
 """The packages of each extra of `alewife`."""
 SIZES = {"pictures": "835 MB, most of it VTK", "film": "903 MB, most of it VTK"}

@@ -15,7 +15,8 @@ pub use model::region::{normal_axis, opposite};
 pub use model::{Model, SwimmerModel};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
-    ProbeQuantity, Quantity, Shape, Source, SwimmerQuantity, columns, known_quantities,
+    ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, columns,
+    known_quantities,
 };
 pub use read::CaseFile;
 pub use read::library;
@@ -54,6 +55,8 @@ pub use spec::field::{DipoleField, FieldSpec, LinearField, MagneticSpec, Rotatin
 pub use spec::fluid::mean_flow::MeanFlowSpec;
 pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use spec::fluid::{FlowModel, Fluid};
+pub use spec::formula::{Definitions, Formula, FormulaError, ParsedFormula};
+pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use spec::mesh_file::MeshFile;
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};

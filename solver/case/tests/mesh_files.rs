@@ -94,7 +94,10 @@ fn what_cannot_be_is_refused() {
     refused("geometry=spatial", &["no tetrahedra"]);
     refused("geometry=axisymmetric", &["a mesh cannot stand", "half-disc, cylinder"]);
     refused("boundary.wall='symmetry'", &["boundary.wall", "`symmetry` holds on flat sides"]);
-    refused("boundary.wall={ parabolic = { peak = 1.0 } }", &["`wall` is not straight"]);
+    refused(
+        "boundary.wall={ parabolic = { peak = 1.0 } }",
+        &["`wall` is not straight", "expressions"],
+    );
     refused("boundary.wall={ periodic = 'inlet' }", &["neither periodic"]);
     refused("boundary.outlet='no-slip'", &["net inflow 0.666667 m2/s"]);
     refused("boundary.exit='no-slip'", &["no side `exit`", "inlet, outlet, wall"]);
@@ -103,8 +106,19 @@ fn what_cannot_be_is_refused() {
     refused(body, &["domain.mesh: bodies in the plane"]);
     assert!(read(directory.path(), &["boundary.inlet='symmetry'"]).is_ok());
     let text = fs::read_to_string(directory.path().join("meshes/a.msh")).unwrap();
-    fs::write(directory.path().join("meshes/a.msh"), text.replace("4.1 0 8", "2.2 0 8")).unwrap();
+    fs::write(directory.path().join("meshes/a.msh"), text.replace("4.1 0 8", "3.0 0 8")).unwrap();
     let error = read(directory.path(), &[]).unwrap_err();
-    assert!(error.contains("a.msh, line 2: version 2.2"), "{error}");
-    assert!(error.contains("channel.toml:5:20") && error.contains("MSH 4.1 is read"), "{error}");
+    assert!(error.contains("a.msh, line 2: version 3.0"), "{error}");
+    fs::copy(directory.path().join("meshes/a.msh"), directory.path().join("meshes/a.med")).unwrap();
+    fs::write(directory.path().join("meshes/a.med"), "\u{89}HDF").unwrap();
+    let other = read(directory.path(), &["domain.mesh.file=../meshes/a.med"]).unwrap_err();
+    assert!(
+        other.contains("a file of Salome") && other.contains("alewife-post convert"),
+        "{other}"
+    );
+    assert!(other.contains("meshes/a.med ") && other.contains("meshes/a.msh`"), "{other}");
+    assert!(
+        error.contains("channel.toml:5:20") && error.contains("MSH 2.2, 4.0 and 4.1 are read"),
+        "{error}"
+    );
 }

@@ -1,3 +1,4 @@
 //! Swimmers without a flow: loads by laws, gradients of whole motions, calibration and optimisation.
 
 pub mod soft;
+pub mod tree;

@@ -4,6 +4,7 @@ mod check;
 mod complete;
 mod exit;
 mod facts;
+mod fidelity;
 mod library;
 mod manual;
 mod mesh;

@@ -7,6 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::number::whole;
 use crate::planar::lattice::lattice;
+use crate::planar::outline::Corner;
 use crate::planar::torus::Torus;
 use crate::planar::vector::cross;
 use crate::quadrature::integrate;
@@ -28,7 +29,7 @@ pub struct BoundaryPiece {
 pub enum Curve {
     /// Straight from a to b.
     Segment(Point<2>, Point<2>),
-    /// A quarter of outline `outline` of [`BoundaryLoops::outlines`].
+    /// A quarter of outline `outline` of [`BoundaryLoops::outlines`], or a side of a polygon.
     Quarter {
         /// Index of the outline.
         outline: usize,
@@ -120,7 +121,7 @@ impl BoundaryLoops {
             }
         }
         if !domain.is_axisymmetric() {
-            around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
+            around_bodies(&mut pieces, &mut loops, &outlines[..bodies.len()], first_body);
         }
         Self {
             pieces,
@@ -152,7 +153,7 @@ impl BoundaryLoops {
             pieces = Self::new(domain, &[], Vec::new()).pieces;
             pieces.retain(|wall| !domain.is_periodic(wall.boundary.index()));
             loops.extend(0..pieces.len());
-            around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
+            around_bodies(&mut pieces, &mut loops, &outlines[..bodies.len()], first_body);
         }
         let boundaries = boundaries(domain, bodies);
         Self { pieces, loops, outlines, boundaries, images, torus }
@@ -217,7 +218,10 @@ impl BoundaryLoops {
 
     /// Whether the edges of a piece are straight.
     pub fn is_straight(&self, piece: usize) -> bool {
-        matches!(self.pieces[piece].curve, Curve::Segment(..))
+        match self.pieces[piece].curve {
+            Curve::Segment(..) => true,
+            Curve::Quarter { outline, .. } => self.outlines[outline].is_polygon(),
+        }
     }
 
     /// Whether a piece is one of a periodic pair.
@@ -227,14 +231,33 @@ impl BoundaryLoops {
             || copies.into_iter().any(|copy| copy.original == piece)
     }
 
-    /// Length per parameter where it is constant: all but outlines that are no circles.
+    /// Length per parameter where it is constant: straight pieces and circles.
     fn speed(&self, piece: usize) -> Option<f64> {
         match &self.pieces[piece].curve {
             Curve::Segment(a, b) => Some((b - a).norm()),
-            Curve::Quarter { outline, .. } => {
-                self.outlines[*outline].circle_radius().map(|radius| radius * FRAC_PI_2)
+            Curve::Quarter { outline, quarter, .. } => {
+                let outline = &self.outlines[*outline];
+                if outline.is_polygon() {
+                    return Some(outline.evaluate(*quarter, 0.0)[1].norm());
+                }
+                outline.circle_radius().map(|radius| radius * FRAC_PI_2)
             }
         }
+    }
+
+    /// The corner of a polygon at the start of a piece, 0, or at its end, 1, and the shorter of its sides (m).
+    pub fn corner(&self, piece: usize, parameter: f64) -> Option<(Corner, f64)> {
+        let Curve::Quarter { outline, quarter, reversed } = self.pieces[piece].curve else {
+            return None;
+        };
+        let at_start = parameter == if reversed { 1.0 } else { 0.0 };
+        let at_end = parameter == if reversed { 0.0 } else { 1.0 };
+        let outline = &self.outlines[outline];
+        let (corners, n) = (outline.corners(), outline.n_pieces());
+        let index = if at_end { (quarter + 1) % n } else { quarter };
+        let corner = corners.get(index).filter(|_| at_start || at_end)?;
+        let length = |side: usize| outline.evaluate(side, 0.0)[1].norm();
+        Some((*corner, length(index).min(length((index + n - 1) % n))))
     }
 }
 
@@ -256,12 +279,12 @@ fn boundaries(domain: &Domain, bodies: &[PlacedShape]) -> Vec<Boundary> {
 fn around_bodies(
     pieces: &mut Vec<BoundaryPiece>,
     loops: &mut Vec<usize>,
-    n_bodies: usize,
+    outlines: &[Outline],
     first_body: usize,
 ) {
-    for body in 0..n_bodies {
+    for (body, outline) in outlines.iter().enumerate() {
         loops.push(pieces.len());
-        for quarter in [3, 2, 1, 0] {
+        for quarter in (0..outline.n_pieces()).rev() {
             pieces.push(quarter_of(body, quarter, true, first_body + body));
         }
     }

@@ -5,11 +5,14 @@
 
 mod arc;
 mod closest_points;
+mod corners;
 mod pairs;
 mod wall;
 
 pub use closest_points::Closest;
 pub use wall::Wall;
+
+use std::borrow::Cow;
 
 use crate::{Outline, Point};
 
@@ -26,6 +29,10 @@ pub fn closest_features(first: &Outline, second: &Outline, range: f64) -> Vec<Cl
     if let Some(closest) = between_discs(first, second) {
         return if closest.gap < range { vec![closest] } else { Vec::new() };
     }
+    if first.is_polygon() && second.is_polygon() {
+        return corners::features(first, second, range);
+    }
+    let (first, second) = (&smooth(first), &smooth(second));
     let deepest = overlap_depth(first, second);
     let mut found = match deepest {
         Some(deepest) => vec![deepest],
@@ -41,6 +48,9 @@ pub fn wall_features(outline: &Outline, wall: &Wall, range: f64) -> Vec<Closest>
     if wall.gap(outline.center()) - outline.reach() >= range {
         return Vec::new();
     }
+    if outline.is_polygon() {
+        return corners::wall_features(outline, wall, range);
+    }
     wall::features(outline, wall, range)
 }
 
@@ -50,6 +60,11 @@ pub fn closest(first: &Outline, second: &Outline) -> Closest {
     if let Some(closest) = between_discs(first, second) {
         return closest;
     }
+    if first.is_polygon() && second.is_polygon() {
+        let found = corners::features(first, second, f64::INFINITY);
+        return least(&found).unwrap_or_else(|| by_points(first, second));
+    }
+    let (first, second) = (&smooth(first), &smooth(second));
     if let Some(deepest) = overlap_depth(first, second) {
         return deepest;
     }
@@ -66,7 +81,7 @@ pub fn closest(first: &Outline, second: &Outline) -> Closest {
 /// The nearest points of an outline and a wall; behind the wall, the deepest.
 #[must_use]
 pub fn closest_to_wall(outline: &Outline, wall: &Wall) -> Closest {
-    let found = wall::features(outline, wall, f64::INFINITY);
+    let found = wall_features(outline, wall, f64::INFINITY);
     least(&found).unwrap_or_else(|| {
         // A round body in the middle of a round wall: every point is as near
         let place = outline.at(0.0)[0];
@@ -88,11 +103,15 @@ pub fn overlap(first: &Outline, second: &Outline) -> bool {
 }
 
 /// How far a body can be moved without passing through the thinnest part of an outline (m): the
-/// smallest diameter of an ellipse, of the circles inside a spline that touch it twice otherwise.
+/// smallest diameter of an ellipse, of the circles inside a spline that touch it twice, the least distance
+/// of opposite sides of a polygon.
 #[must_use]
 pub fn thickness(outline: &Outline) -> f64 {
     /// Samples between two points of a spline, enough to see its narrow places to a few per cent.
     const SAMPLES: usize = 4;
+    if let Some(thickness) = outline.thickness_of_polygon() {
+        return thickness;
+    }
     if outline.is_ellipse() {
         return 2.0
             * (0..4).fold(f64::INFINITY, |least, quarter| {
@@ -138,6 +157,11 @@ pub fn on_meridian(mut features: Vec<Closest>) -> Vec<Closest> {
     }
     features.retain(|at| at.first.y >= 0.0);
     features
+}
+
+/// An outline with a tangent that turns continuously: corners of a polygon face what is smooth as bends do.
+fn smooth(outline: &Outline) -> Cow<'_, Outline> {
+    outline.blunted().map_or(Cow::Borrowed(outline), Cow::Owned)
 }
 
 /// Depth (m) down to which an overlap is seen as a feature of its own.

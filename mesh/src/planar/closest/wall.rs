@@ -92,7 +92,7 @@ impl Wall {
     }
 
     /// Contact data at a place of an outline whose normal is opposite to the wall's.
-    fn describe(&self, at: Point<2>, parameter: f64, curvature: f64) -> Closest {
+    pub(super) fn describe(&self, at: Point<2>, parameter: f64, curvature: f64) -> Closest {
         let (normal, gap) = (self.normal(at), self.gap(at));
         let second = at - normal * gap;
         Closest {

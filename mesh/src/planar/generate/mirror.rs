@@ -21,8 +21,9 @@ const SAMPLES: usize = 48;
 /// Where a body is with respect to the line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Role {
-    /// Its own mirror image; the line enters it at the start of this quarter.
-    OnLine(usize),
+    /// Its own mirror image; the line enters it at the start of one of its pieces, and leaves it at that of
+    /// another one.
+    OnLine { entry: usize, exit: usize },
     /// In the half that is meshed.
     Kept,
     /// The mirror image of a body that is.
@@ -135,16 +136,17 @@ impl Mirror {
             let along = |quarter: usize| {
                 if self.axis == 1 { pole(quarter).x } else { -pole(quarter).y }
             };
-            let entry = (0..4).filter(on_line).min_by(|a, b| along(*a).total_cmp(&along(*b)))?;
-            let is_cut = on_line(&((entry + 2) % 4));
+            let n = outline.n_pieces();
+            let poles: Vec<usize> = (0..n).filter(on_line).collect();
+            let &[one, other] = poles.as_slice() else { return None };
+            let [entry, exit] = if along(other) < along(one) { [other, one] } else { [one, other] };
             // Between its poles the travelled half lies beyond the line
-            let quarters = [(entry + 3) % 4, (entry + 2) % 4];
-            let stays = quarters.iter().all(|quarter| {
-                (1..SAMPLES).all(|i| {
-                    beyond(outline.evaluate(*quarter, i as f64 / SAMPLES as f64)[0]) > near
-                })
+            let stays = travelled(entry, exit, n).into_iter().all(|piece| {
+                let first = usize::from(on_line(&piece));
+                (first..SAMPLES)
+                    .all(|i| beyond(outline.evaluate(piece, i as f64 / SAMPLES as f64)[0]) > near)
             });
-            return (is_cut && stays).then_some(Role::OnLine(entry));
+            return stays.then_some(Role::OnLine { entry, exit });
         }
         if samples(outline).all(|place| beyond(place) > near) {
             Some(Role::Kept)
@@ -183,7 +185,7 @@ impl Mirror {
         for (body, role) in self.roles.iter().enumerate() {
             if *role == Role::Kept {
                 loops.push(pieces.len());
-                for quarter in [3, 2, 1, 0] {
+                for quarter in (0..border.outlines[body].n_pieces()).rev() {
                     pieces.push(quarter_of(body, quarter, true, n_sides + body));
                 }
             }
@@ -237,29 +239,30 @@ impl Mirror {
             place[self.axis] = self.at;
             place
         };
-        let pole =
-            |body: usize, quarter: usize| on_line(outlines[body].evaluate(quarter % 4, 0.0)[0]);
-        let mut bodies: Vec<(f64, usize, usize)> = Vec::new();
+        let pole = |body: usize, quarter: usize| on_line(outlines[body].evaluate(quarter, 0.0)[0]);
+        let mut bodies: Vec<(f64, usize, [usize; 2])> = Vec::new();
         for (body, role) in self.roles.iter().enumerate() {
-            if let Role::OnLine(entry) = role {
-                bodies.push(((pole(body, *entry) - start).dot(&(end - start)), body, *entry));
+            if let Role::OnLine { entry, exit } = role {
+                let along = (pole(body, *entry) - start).dot(&(end - start));
+                bodies.push((along, body, [*entry, *exit]));
             }
         }
         bodies.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut made = Vec::new();
         let (mut from, mut to) = (on_line(start), on_line(end));
-        if let (true, Some(&(_, body, entry))) = (closes, bodies.first()) {
+        if let (true, Some(&(_, body, [entry, _]))) = (closes, bodies.first()) {
             to += pole(body, entry) - from;
             from = pole(body, entry);
         }
-        for (_, body, entry) in bodies {
+        for (_, body, [entry, exit]) in bodies {
             if from != pole(body, entry) {
                 made.push(segment(from, pole(body, entry), line, None));
             }
             let boundary = n_sides + body;
-            made.push(quarter_of(body, (entry + 3) % 4, true, boundary));
-            made.push(quarter_of(body, (entry + 2) % 4, true, boundary));
-            from = pole(body, entry + 2);
+            for piece in travelled(entry, exit, outlines[body].n_pieces()) {
+                made.push(quarter_of(body, piece, true, boundary));
+            }
+            from = pole(body, exit);
         }
         made.push(segment(from, to, line, None));
         // Behind the side at whose end the line starts: the first of a box cut along y = const,
@@ -360,10 +363,16 @@ fn number(half: &Mesh<2>, is_on_line: &[bool]) -> Numbering {
     Numbering { kept, image, n_nodes: next }
 }
 
-/// Places around an outline, the ends of its quarters among them.
+/// The pieces of an outline, of so many, from the start of one of them back to that of another one.
+fn travelled(entry: usize, exit: usize, n: usize) -> Vec<usize> {
+    let count = (entry + n - exit) % n;
+    (1..=count).map(|back| (entry + n - back) % n).collect()
+}
+
+/// Places around an outline, the ends of its pieces among them.
 fn samples(outline: &Outline) -> impl Iterator<Item = Point<2>> + '_ {
-    (0..4 * SAMPLES)
-        .map(|i| outline.evaluate(i / SAMPLES, (i % SAMPLES) as f64 / SAMPLES as f64)[0])
+    let n = (4 * SAMPLES / outline.n_pieces()).max(2);
+    (0..outline.n_pieces() * n).map(move |i| outline.evaluate(i / n, (i % n) as f64 / n as f64)[0])
 }
 
 /// Pairs with chains followed to their ends, each copy once, sorted.

@@ -173,7 +173,7 @@ fn extreme(spline: &Spline, samples: &[f64], direction: Point<2>) -> f64 {
 }
 
 /// Where two sides of a closed polygon cross, if any do: a sweep along x.
-fn crossing(polygon: &[Point<2>]) -> Option<Point<2>> {
+pub(super) fn crossing(polygon: &[Point<2>]) -> Option<Point<2>> {
     let n = polygon.len();
     let side = |i: usize| (polygon[i], polygon[(i + 1) % n]);
     let mut order: Vec<usize> = (0..n).collect();

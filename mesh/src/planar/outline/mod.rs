@@ -1,4 +1,5 @@
-//! `Outline`: the closed curve around a placed body, in four quarters cut at its extreme points.
+//! `Outline`: the closed curve around a placed body, in four quarters cut at its extreme points, or in the
+//! sides of a polygon.
 //!
 //! Quarter k runs counter-clockwise from the extreme point in direction k of the body frame (+x,
 //! +y, -x, -y) to the next one, with a parameter in [0, 1]. For an ellipse the parameter is the
@@ -7,12 +8,15 @@
 mod closed_spline;
 mod ellipse;
 mod foot;
+mod polygon;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use closed_spline::ClosedSpline;
 use foot::Foot;
+use polygon::Polygon;
+pub(super) use polygon::{Corner, stokes_exponent};
 
 use crate::surface::{Surface, SurfacePoint};
 use crate::{MeshError, PlacedShape, Point, Shape, Spline};
@@ -33,6 +37,7 @@ pub struct Outline {
 enum Form {
     Ellipse([f64; 2]),
     Spline(ClosedSpline),
+    Polygon(Polygon),
 }
 
 /// The place of an outline nearest to a point.
@@ -55,8 +60,8 @@ impl Outline {
     /// Outline of a body in its place.
     ///
     /// # Errors
-    /// [`MeshError::Body`] when a length is not positive or a spline has no valid points,
-    /// [`MeshError::SelfIntersection`] when a spline crosses itself.
+    /// [`MeshError::Body`] when a length is not positive or a spline or polygon has no valid points,
+    /// [`MeshError::SelfIntersection`] when one crosses itself.
     pub fn new(body: &PlacedShape) -> Result<Self, MeshError> {
         let refuse =
             |what, value, wanted| MeshError::Body { body: body.name.clone(), what, value, wanted };
@@ -80,6 +85,10 @@ impl Outline {
                 let form = ClosedSpline::new(Arc::new(spline), &body.name)?;
                 return Ok(Self::with_form(body.center, body.angle, Form::Spline(form)));
             }
+            Shape::Polygon { points } => {
+                let form = Polygon::new(points, &body.name)?;
+                return Ok(Self::with_form(body.center, body.angle, Form::Polygon(form)));
+            }
             Shape::Curve { spline } => {
                 let form = ClosedSpline::new(Arc::clone(spline), &body.name)?;
                 return Ok(Self::with_form(body.center, body.angle, Form::Spline(form)));
@@ -101,6 +110,7 @@ impl Outline {
         let reach = match &form {
             Form::Ellipse([a, b]) => a.max(*b),
             Form::Spline(form) => form.reach(),
+            Form::Polygon(form) => form.reach(),
         };
         Self { center, cos: angle.cos(), sin: angle.sin(), form: Arc::new(form), reach }
     }
@@ -126,12 +136,13 @@ impl Outline {
     }
 
     /// Length of the parameter of [`Self::at`]: 2 pi for an ellipse, the last knot of a spline: the
-    /// chord length of its points (m) unless given.
+    /// chord length of its points (m) unless given; the length of all sides of a polygon (m).
     #[must_use]
     pub fn period(&self) -> f64 {
         match &*self.form {
             Form::Ellipse(_) => TAU,
             Form::Spline(form) => form.spline.period(),
+            Form::Polygon(form) => form.perimeter(),
         }
     }
 
@@ -146,6 +157,7 @@ impl Outline {
                 [point, Point::<2>::new(-a * s, b * c), -point]
             }
             Form::Spline(form) => form.spline.evaluate(parameter),
+            Form::Polygon(form) => form.at(parameter),
         };
         [self.center + self.turn(point), self.turn(first), self.turn(second)]
     }
@@ -161,6 +173,7 @@ impl Outline {
                 (foot.y / b).atan2(foot.x / a)
             }
             Form::Spline(form) => form.parameter_of(local),
+            Form::Polygon(form) => form.parameter_of(local),
         };
         let within = parameter.rem_euclid(self.period());
         // Rounding may give the period itself
@@ -183,6 +196,7 @@ impl Outline {
                 (0..=n).map(|i| TAU * i as f64 / n as f64).collect()
             }
             Form::Spline(form) => form.spline.knots().to_vec(),
+            Form::Polygon(form) => form.breaks(),
         }
     }
 
@@ -192,7 +206,17 @@ impl Outline {
         (point - self.center).norm() - self.reach
     }
 
-    /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters.
+    /// Number of the smooth pieces of [`Self::evaluate`]: four quarters, or the sides of a polygon.
+    #[must_use]
+    pub fn n_pieces(&self) -> usize {
+        match &*self.form {
+            Form::Ellipse(_) | Form::Spline(_) => 4,
+            Form::Polygon(form) => form.n_sides(),
+        }
+    }
+
+    /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters, or of
+    /// the sides of a polygon.
     #[must_use]
     pub fn evaluate(&self, quarter: usize, parameter: f64) -> [Point<2>; 3] {
         let [point, first, second] = match &*self.form {
@@ -206,6 +230,7 @@ impl Outline {
                 ]
             }
             Form::Spline(form) => form.evaluate(quarter, parameter),
+            Form::Polygon(form) => form.evaluate(quarter, parameter),
         };
         [self.center + self.turn(point), self.turn(first), self.turn(second)]
     }
@@ -225,6 +250,36 @@ impl Outline {
         matches!(*self.form, Form::Ellipse(_))
     }
 
+    /// Whether it has straight sides and corners.
+    #[must_use]
+    pub fn is_polygon(&self) -> bool {
+        matches!(*self.form, Form::Polygon(_))
+    }
+
+    /// The corners of a polygon; none of other outlines.
+    pub(crate) fn corners(&self) -> Vec<Corner> {
+        let Form::Polygon(form) = &*self.form else { return Vec::new() };
+        let placed = |corner: Corner| Corner {
+            at: self.center + self.turn(corner.at),
+            sides: corner.sides.map(|side| self.turn(side)),
+            ..corner
+        };
+        form.corners().map(placed).collect()
+    }
+
+    /// The outline with corners that are blunt by a hair, its tangent continuous; `None` where it has no
+    /// corners.
+    pub(crate) fn blunted(&self) -> Option<Self> {
+        let Form::Polygon(form) = &*self.form else { return None };
+        Some(Self { form: Arc::new(Form::Polygon(form.blunted())), ..*self })
+    }
+
+    /// Distance across the body of a polygon where it is thinnest (m).
+    pub(crate) fn thickness_of_polygon(&self) -> Option<f64> {
+        let Form::Polygon(form) = &*self.form else { return None };
+        Some(form.thickness())
+    }
+
     /// Nearest place on the outline.
     #[must_use]
     pub fn nearest(&self, point: Point<2>) -> Nearest {
@@ -232,6 +287,7 @@ impl Outline {
         let Foot { point, normal, curvature } = match &*self.form {
             Form::Ellipse(semi_axes) => ellipse::nearest(*semi_axes, local),
             Form::Spline(form) => form.nearest(local),
+            Form::Polygon(form) => form.nearest(local),
         };
         let gap = (local - point).dot(&normal);
         // The foot of the perpendicular makes the offset parallel to the normal

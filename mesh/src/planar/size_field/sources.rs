@@ -1,10 +1,11 @@
-//! Wanted sizes on the boundary: own size, gap to what faces it, curvature.
+//! Wanted sizes on the boundary: own size, gap to what faces it, curvature, corners.
 //!
 //! The gap is Lipschitz with constant one, so samples closer than half of the size they find
 //! cannot miss a narrow place between them.
 
 use super::tree::SizeSource;
 use crate::planar::boundary::{BoundaryLoops, Curve, Frame};
+use crate::planar::outline::stokes_exponent;
 use crate::surface::SurfaceTree;
 use crate::{BoundaryKind, Domain, MeshError, PlacedShape, Point, Sizing};
 
@@ -14,7 +15,10 @@ const MOST_SAMPLES: usize = 1_000_000;
 /// Two parts of one curve face each other when their normals enclose a cosine below this.
 const FACING: f64 = -0.5;
 
-/// Places per quarter of a spline that are compared with each other to find facing parts.
+/// Smallest part of the size of its sides that a corner has.
+const SMALLEST_AT_CORNER: f64 = 1.0 / 64.0;
+
+/// Places per outline, over four, of a spline or polygon that are compared with each other to find facing parts.
 const FACING_SAMPLES: usize = 96;
 
 /// Places on the boundary, close enough to each other, with the size wanted there (m).
@@ -119,8 +123,9 @@ impl<'a> Surfaces<'a> {
                 && outline < bodies.len()
                 && !border.outlines[outline].is_ellipse()
             {
-                facing[outline].extend((0..FACING_SAMPLES).map(|i| {
-                    let parameter = i as f64 / FACING_SAMPLES as f64;
+                let n = (4 * FACING_SAMPLES / border.outlines[outline].n_pieces()).max(2);
+                facing[outline].extend((0..n).map(|i| {
+                    let parameter = i as f64 / n as f64;
                     (border.point(index, parameter), border.frame(index, parameter).normal)
                 }));
             }
@@ -137,6 +142,7 @@ impl<'a> Surfaces<'a> {
         match self.border.pieces[piece].curve {
             Curve::Segment(..) => 2,
             Curve::Quarter { outline, .. } if self.border.outlines[outline].is_ellipse() => 4,
+            Curve::Quarter { outline, .. } if self.border.outlines[outline].is_polygon() => 2,
             Curve::Quarter { .. } => 8,
         }
     }
@@ -173,7 +179,18 @@ impl<'a> Surfaces<'a> {
                 }
             }
         };
-        SizeSource { point, size: size.min(self.own[boundary]).min(self.turn * radius) }
+        let size = size.min(self.own[boundary]).min(self.turn * radius);
+        SizeSource { point, size: size * self.part_at_corner(piece, parameter, size) }
+    }
+
+    /// Part of the size (m) of its sides that a corner of a body has.
+    ///
+    /// Stokes flow near a corner goes like the power l of the distance, and stresses like l - 1. With cells
+    /// of size h (h / L)^(1 / l - 1) there, L the shorter side, a force converges as without corners.
+    fn part_at_corner(&self, piece: usize, parameter: f64, size: f64) -> f64 {
+        let Some((corner, side)) = self.border.corner(piece, parameter) else { return 1.0 };
+        let exponent = 1.0 / stokes_exponent(corner.turn()) - 1.0;
+        (size / side).min(1.0).powf(exponent).max(SMALLEST_AT_CORNER)
     }
 
     /// Distance to the nearest body, the images of all and the body itself left out.

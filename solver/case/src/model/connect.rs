@@ -95,6 +95,9 @@ fn of_side(condition: &mut BoundaryCondition) -> Option<&mut TimeFunction> {
     match condition {
         BoundaryCondition::Velocity { factor, .. }
         | BoundaryCondition::Parabolic { factor, .. }
+        | BoundaryCondition::Developed { factor, .. }
+        | BoundaryCondition::Pressure { factor, .. }
+        | BoundaryCondition::Traction { factor, .. }
         | BoundaryCondition::Shear { factor, .. } => factor.as_mut(),
         BoundaryCondition::NoSlip
         | BoundaryCondition::DoNothing

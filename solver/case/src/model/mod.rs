@@ -355,6 +355,7 @@ impl Model {
         case.fluid.model == FlowModel::NavierStokes
             && matches!(case.time, TimeSettings::Unsteady(_))
             && !self.bodies.is_empty()
+            && case.fluid.force.is_empty()
             && case.boundary.values().all(is_closed)
     }
 
@@ -373,6 +374,8 @@ impl Model {
             _ => false,
         };
         let does_work = !self.bodies.is_empty() || self.case.has_waving_sheet();
-        does_work && self.case.boundary.values().all(is_balanced)
+        does_work
+            && self.case.fluid.force.is_empty()
+            && self.case.boundary.values().all(is_balanced)
     }
 }

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::{
-    Body, BoundaryCondition, Case, ContactSpec, GaitSpec, Geometry, Joint, JointKind, MagneticSpec,
-    Model, Motion, Stroke,
+    Body, BoundaryCondition, Case, ContactSpec, Formula, GaitSpec, Geometry, Joint, JointKind,
+    MagneticSpec, Model, Motion, ParsedFormula, Stroke,
 };
 
 /// Times of a stroke's period at which its rate is looked at.
@@ -147,10 +147,40 @@ pub(crate) fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|part| part * part).sum::<f64>().sqrt()
 }
 
+/// The largest speed of these components (m/s), at places all over the domain at time zero where they are expressions.
+fn largest_speed(case: &Case, value: &[Formula]) -> f64 {
+    const PLACES: u32 = 8;
+    let n = case.geometry.dimensions();
+    let parsed = value.iter().filter_map(|one| one.parsed(&case.define, n).ok());
+    let parsed: Vec<ParsedFormula> = parsed.collect();
+    if parsed.iter().all(ParsedFormula::is_constant) {
+        return norm(&parsed.iter().map(|one| one.at(&[0.0; 4])).collect::<Vec<_>>());
+    }
+    let (extent, mut most) = (case.extent(), 0.0_f64);
+    let lengths = extent.lengths();
+    for place in 0..PLACES.pow(3) {
+        let part = |axis: u32| f64::from(place / PLACES.pow(axis) % PLACES) / f64::from(PLACES - 1);
+        let at = |axis: usize, nth: u32| extent.min[axis] + part(nth) * lengths[axis];
+        let point = [at(0, 0), at(1, 1), at(2, 2), 0.0];
+        let speed = norm(&parsed.iter().map(|one| one.at(&point)).collect::<Vec<_>>());
+        most = if speed.is_finite() { most.max(speed) } else { most };
+    }
+    most
+}
+
 /// The largest speed on a side (m/s).
 fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
     match condition {
-        BoundaryCondition::Velocity { value, .. } => norm(value),
+        BoundaryCondition::Velocity { value, .. } => largest_speed(case, value),
+        BoundaryCondition::Developed { peak: Some(peak), .. } => peak.abs(),
+        BoundaryCondition::Developed { flux: Some(flux), .. } => {
+            // Of a round or square side as wide as the domain is narrow
+            let lengths = case.extent().lengths();
+            let n = case.geometry.dimensions();
+            let width = lengths[..n].iter().copied().fold(f64::INFINITY, f64::min);
+            let across = if case.geometry == Geometry::Planar { width } else { width * width };
+            2.0 * flux.abs() / across
+        }
         BoundaryCondition::Parabolic { peak, .. } => peak.abs(),
         BoundaryCondition::Shear { rate, origin, .. } => {
             let [min, max] = case.extent().in_plane();

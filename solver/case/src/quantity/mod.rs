@@ -3,12 +3,16 @@
 //! A new quantity is one row of `table.rs` and one arm of its `match` in the measurements of a run.
 
 mod row;
+mod sides;
 mod table;
 
 use crate::{FlowModel, Geometry, MagneticSpec, Model, SwimmerModel, TimeSettings};
 
 pub use self::row::{Component, Condition, NamedComponent, Quantity, Shape};
-pub use self::table::{BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, SwimmerQuantity};
+use self::sides::reported_sides;
+pub use self::table::{
+    BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, SideQuantity, SwimmerQuantity,
+};
 
 /// A column of `series.csv`: which quantity, and of what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,6 +27,8 @@ pub enum Source {
     Probe(usize, ProbeQuantity),
     /// Of the flow.
     Flow(FlowQuantity),
+    /// Of a side, by its number in [`Case::sides`](crate::Case::sides).
+    Side(usize, SideQuantity),
 }
 
 /// A named column of `series.csv`.
@@ -74,6 +80,10 @@ pub fn columns(model: &Model) -> Vec<Column> {
         add(&mut columns, &probe.name, ProbeQuantity::TABLE, &of_case, source);
     }
     add(&mut columns, "flow", FlowQuantity::TABLE, &of_case, Source::Flow);
+    for (nth, side) in reported_sides(model) {
+        let source = |quantity| Source::Side(nth, quantity);
+        add(&mut columns, side, SideQuantity::TABLE, &of_case, source);
+    }
     columns
 }
 
@@ -148,6 +158,13 @@ fn add<T: Copy>(
 #[must_use]
 pub fn known_quantities(model: &Model) -> Vec<String> {
     columns(model).into_iter().map(|column| column.name).collect()
+}
+
+/// Whether a quantity would be one of a side, if the sides were reported.
+pub(crate) fn is_of_a_side(model: &Model, name: &str) -> bool {
+    let Some((owner, quantity)) = name.split_once('.') else { return false };
+    let mut numbers = SideQuantity::TABLE.iter().flat_map(Quantity::components);
+    model.case.sides().contains(&owner) && numbers.any(|one| one.name == quantity)
 }
 
 /// Quantities that had another name once, and what they are called.

@@ -162,6 +162,23 @@ quantities! {
 }
 
 quantities! {
+    /// Quantities of a side of the domain, named `SIDE.force.x` and so on.
+    SideQuantity {
+        Force: Vector, "force", "N (N/m)", [],
+            "Load of the fluid on the side, from the residual as that of bodies: those of all sides and \
+             bodies add up to the change of momentum to rounding";
+        Torque: rotation("Its torque about the origin"), "torque", "N m (N)", [],
+            "Its torque about the origin, counter-clockwise; 0 in axisymmetric cases";
+        Flux: Scalar, "flux", "m3/s (m2/s)", [],
+            "Volume that enters through the side in a unit of time, negative where it leaves; of a side that goes \
+             with a frame, relative to it";
+        MeanPressure: Scalar, "mean_pressure", "Pa", [],
+            "Mean of the pressure over the side, without its hydrostatic part";
+        MeanTraction: Vector, "mean_traction", "Pa", [], "`force` over the area of the side";
+    }
+}
+
+quantities! {
     /// Quantities of the whole flow, named `flow.dissipation` and so on.
     FlowQuantity {
         Dissipation: Scalar, "dissipation", "W (W/m)", [], "Integral of 2 mu D : D";

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use alewife_mesh::Place;
+use alewife_mesh::{MshOptions, Place};
 
 use super::library;
 use crate::spec::mesh_file::Contents;
@@ -34,6 +34,19 @@ pub fn read_into(case: &mut Case, root: &TomlNode) -> Result<(), TreeError> {
     }
     let bytes = bytes_of(&spec.file, &origin)
         .map_err(|Unreadable { message, help }| refused(message, &help))?;
+    if let Some(format) = other_format(&spec.file, &bytes) {
+        let path = Path::new(&spec.file);
+        let whole = origin.source.directory.as_ref().map_or(path.to_owned(), |at| at.join(path));
+        let (from, to) = (whole.display().to_string(), whole.with_extension("msh"));
+        return Err(refused(
+            format!("{} is a file of {format}, and no mesh of Gmsh", spec.file),
+            &format!(
+                "make one of it with `alewife-post convert {from} {}`, and write file = \"{}\"",
+                to.display(),
+                path.with_extension("msh").display()
+            ),
+        ));
+    }
     let found = checksum(&bytes);
     if let Some(wanted) = spec.checksum.as_ref().filter(|wanted| **wanted != found) {
         return Err(refused(
@@ -41,7 +54,8 @@ pub fn read_into(case: &mut Case, root: &TomlNode) -> Result<(), TreeError> {
             "it has changed since the case was run: restore it, or take domain.mesh.checksum out",
         ));
     }
-    let contents = Contents::read(bytes, spec.scale, dimensions).map_err(|error| {
+    let options = MshOptions { scale: spec.scale, sides: spec.sides.clone() };
+    let contents = Contents::read(bytes, &options, dimensions).map_err(|error| {
         let help = error.accepted.clone();
         let place = match error.place {
             Place::Line(line) => format!(", line {line}"),
@@ -53,6 +67,31 @@ pub fn read_into(case: &mut Case, root: &TomlNode) -> Result<(), TreeError> {
     spec.checksum = Some(found);
     spec.contents = Some(Arc::new(contents));
     Ok(())
+}
+
+/// The format of a file that is none of Gmsh, if it is known.
+fn other_format(file: &str, bytes: &[u8]) -> Option<&'static str> {
+    const FORMATS: [(&str, &str); 14] = [
+        ("med", "Salome (MED)"),
+        ("vtu", "VTK"),
+        ("vtk", "VTK"),
+        ("xdmf", "XDMF"),
+        ("xmf", "XDMF"),
+        ("inp", "Abaqus"),
+        ("bdf", "Nastran"),
+        ("nas", "Nastran"),
+        ("unv", "I-deas"),
+        ("su2", "SU2"),
+        ("mesh", "Medit"),
+        ("exo", "Exodus"),
+        ("e", "Exodus"),
+        ("h5m", "MOAB"),
+    ];
+    if bytes.starts_with(b"$MeshFormat") {
+        return None;
+    }
+    let ending = Path::new(file).extension()?.to_string_lossy().to_lowercase();
+    FORMATS.iter().find(|(known, _)| *known == ending).map(|(_, format)| *format)
 }
 
 /// The checksum of a file: CRC-32 as in `provenance.json`, and the length.

@@ -10,6 +10,7 @@ mod command;
 mod contact;
 mod declared;
 mod drive;
+mod expressions;
 mod extremes;
 mod field;
 mod findings;
@@ -42,6 +43,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     declared::check(&mut findings);
     general::check(&mut findings);
     fluid::check(&mut findings);
+    expressions::check(&mut findings);
     boundary::check(&mut findings);
     mean_flow::check(&mut findings);
     bodies::check(&mut findings);

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::Findings;
-use crate::quantity::{Condition, conditions_of, known_quantities, renamed};
+use crate::quantity::{Condition, conditions_of, is_of_a_side, known_quantities, renamed};
 use crate::text::nearest::nearest;
 use crate::text::type_error::suggestion;
 use crate::{
@@ -197,6 +197,8 @@ fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known:
         "cycles need an unsteady run and a period: that of a stroke or gait, or `period` of the \
          [[swimmer]]"
             .to_owned()
+    } else if is_of_a_side(findings.model(), quantity) {
+        "periodic sides and the axis have no quantities".to_owned()
     } else {
         known_help(quantity, known)
     };

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, Fluid, Geometry, Joint,
-    MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe, Reference, Scales,
+    Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, Fluid, Geometry, InitialFlow,
+    Joint, MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe, Reference, Scales,
     Statistics, SwimmerSpec, TimeSettings, Units, Variant,
 };
 
@@ -25,6 +25,9 @@ pub struct Case {
     /// The consistent units of all numbers: a text, as `SI`, or labels: `{ length = "um", time = "s" }`.
     #[serde(default)]
     pub units: Units,
+    /// Numbers with names, for use in expressions.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub define: BTreeMap<String, f64>,
     /// Name of the body the frame of reference travels with; the laboratory frame if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
@@ -38,6 +41,9 @@ pub struct Case {
     /// What drives the fluid along periodic directions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow: Option<MeanFlowSpec>,
+    /// The flow an unsteady run starts from, where it is not at rest or the Stokes flow.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial: Option<InitialFlow>,
     /// What acts on bodies from afar.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub field: Option<FieldSpec>,

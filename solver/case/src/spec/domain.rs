@@ -3,9 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::body::command::Command;
+use super::formula::Formula;
 use super::mesh_file::MeshFile;
 #[cfg(test)]
-use crate::spec::number::{NonZero, PerDimension, Positive};
+use crate::spec::number::{FormulaPerDimension, NonZero, PerDimension, Positive};
 
 /// Dimension and symmetry of the problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -169,21 +170,51 @@ pub enum BoundaryCondition {
     Symmetry,
     /// The axis of an axisymmetric domain (taken for granted there, may be left out).
     Axis,
-    /// The same velocity everywhere on the side.
+    /// Open, with a pressure outside: mu du/dn - p n = -value n, of which `do-nothing` is that of 0.
+    Pressure {
+        /// Pressure (Pa), a number or an expression.
+        value: Formula,
+        /// Factor in time.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        factor: Option<TimeFunction>,
+    },
+    /// Open, with a given traction sigma n, of which `traction-free` is that of 0.
+    Traction {
+        /// Traction on the fluid (Pa), one number or expression per dimension.
+        #[cfg_attr(test, schemars(with = "FormulaPerDimension"))]
+        value: Vec<Formula>,
+        /// Factor in time.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        factor: Option<TimeFunction>,
+    },
+    /// A given velocity on the side.
     Velocity {
-        /// Velocity (m/s), one number per dimension.
-        #[cfg_attr(test, schemars(with = "PerDimension"))]
-        value: Vec<f64>,
+        /// Velocity (m/s), one number or expression per dimension.
+        #[cfg_attr(test, schemars(with = "FormulaPerDimension"))]
+        value: Vec<Formula>,
         /// Factor in time.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         factor: Option<TimeFunction>,
     },
     /// Parabolic velocity along x, zero at both ends of the side (on a cylinder: largest on the axis;
-    /// on a box in space: a parabola along y times one along z). On a straight or a round flat side of
-    /// `domain.mesh`: normal to the side, into the domain.
+    /// on a box in space: a parabola along y times one along z). On a flat side of `domain.mesh`: normal to
+    /// it, into the domain, as `developed`.
     Parabolic {
         /// Largest velocity (m/s), negative towards -x, or out of a `domain.mesh`.
         peak: f64,
+        /// Factor in time.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        factor: Option<TimeFunction>,
+    },
+    /// The developed flow through a flat side of any shape, normal to it into the domain: zero where it meets walls, not
+    /// where it meets planes of symmetry.
+    Developed {
+        /// Volume that enters in a unit of time (m3/s; m2/s planar); or `peak`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        flux: Option<f64>,
+        /// Largest velocity (m/s); or `flux`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        peak: Option<f64>,
         /// Factor in time.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         factor: Option<TimeFunction>,
@@ -223,6 +254,9 @@ impl BoundaryCondition {
     /// Whether fluid enters and leaves freely.
     #[must_use]
     pub fn is_open(&self) -> bool {
-        matches!(self, Self::DoNothing | Self::TractionFree)
+        matches!(
+            self,
+            Self::DoNothing | Self::TractionFree | Self::Pressure { .. } | Self::Traction { .. }
+        )
     }
 }

@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use alewife_mesh::spatial::Imported;
-use alewife_mesh::{
-    BoundaryId, Bounds, Mesh, MshError, SideShape, read_planar_msh, read_spatial_msh,
-};
+use alewife_mesh::{BoundaryId, Bounds, Mesh, MshError, MshOptions, SideShape, read_msh_with};
 use serde::{Deserialize, Serialize};
 
 use super::extent::Extent;
@@ -15,11 +13,14 @@ use super::extent::Extent;
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MeshFile {
-    /// Path of a file of Gmsh, MSH 4.1, relative to the file in which it is written.
+    /// Path of a file of Gmsh (MSH 2.2, 4.0 or 4.1), relative to the file in which it is written.
     pub file: String,
     /// Factor that makes its lengths those of the case (1).
     #[serde(default = "one")]
     pub scale: f64,
+    /// Names of the physical groups that are sides, where parts of the boundary are in several (all groups).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sides: Vec<String>,
     /// Checksum of the file, as runs write it: a file with another one is refused.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checksum: Option<String>,
@@ -36,7 +37,7 @@ fn one() -> f64 {
 /// Files with the same content are the same wherever they are.
 impl PartialEq for MeshFile {
     fn eq(&self, other: &Self) -> bool {
-        (self.scale, &self.checksum) == (other.scale, &other.checksum)
+        (self.scale, &self.sides, &self.checksum) == (other.scale, &other.sides, &other.checksum)
     }
 }
 
@@ -49,6 +50,7 @@ pub(crate) struct Contents {
     extent: Extent,
     n_cells: usize,
     measure: f64,
+    notes: Vec<String>,
 }
 
 /// A mesh of the dimension of the case.
@@ -66,13 +68,23 @@ struct NamedSide {
 
 impl Contents {
     /// Reads the content of a file as a mesh of this many dimensions.
-    pub(crate) fn read(bytes: Vec<u8>, scale: f64, dimensions: usize) -> Result<Self, MshError> {
+    pub(crate) fn read(
+        bytes: Vec<u8>,
+        options: &MshOptions,
+        dimensions: usize,
+    ) -> Result<Self, MshError> {
         if dimensions == 2 {
-            let mesh = read_planar_msh(&bytes, scale)?;
-            Ok(Self::of(bytes, &mesh, GivenMesh::Planar(mesh.clone())))
+            let read = read_msh_with::<2>(&bytes, options)?;
+            let mut contents = Self::of(bytes, &read.mesh, GivenMesh::Planar(read.mesh.clone()));
+            contents.notes = read.notes;
+            Ok(contents)
         } else {
-            let imported = Imported::new(read_spatial_msh(&bytes, scale)?);
-            Ok(Self::of(bytes, imported.mesh(), GivenMesh::Spatial(imported.clone())))
+            let read = read_msh_with::<3>(&bytes, options)?;
+            let imported = Imported::new(read.mesh);
+            let mut contents =
+                Self::of(bytes, imported.mesh(), GivenMesh::Spatial(imported.clone()));
+            contents.notes = read.notes;
+            Ok(contents)
         }
     }
 
@@ -88,26 +100,33 @@ impl Contents {
             extent: Extent::between(bounds.min.as_slice(), bounds.max.as_slice()),
             n_cells: from.n_cells(),
             measure: from.measure(),
+            notes: Vec::new(),
             mesh,
         }
     }
 }
 
 impl MeshFile {
-    fn sides(&self) -> &[NamedSide] {
+    fn named_sides(&self) -> &[NamedSide] {
         self.contents.as_ref().map_or(&[], |contents| contents.sides.as_slice())
+    }
+
+    /// What was made of the file that its author may not expect, a sentence each.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        self.contents.as_ref().map_or(&[], |contents| contents.notes.as_slice())
     }
 
     /// Names of its sides.
     #[must_use]
     pub fn side_names(&self) -> Vec<&str> {
-        self.sides().iter().map(|side| side.name.as_str()).collect()
+        self.named_sides().iter().map(|side| side.name.as_str()).collect()
     }
 
     /// What a side looks like; `None` where there is none of that name.
     #[must_use]
     pub fn side_shape(&self, name: &str) -> Option<&SideShape> {
-        self.sides().iter().find(|side| side.name == name).map(|side| &side.shape)
+        self.named_sides().iter().find(|side| side.name == name).map(|side| &side.shape)
     }
 
     /// The smallest box around it.

@@ -8,6 +8,8 @@ pub(crate) mod domain;
 pub(crate) mod extent;
 pub(crate) mod field;
 pub(crate) mod fluid;
+pub(crate) mod formula;
+pub(crate) mod initial;
 pub(crate) mod mesh;
 pub(crate) mod mesh_file;
 #[cfg(test)]

@@ -55,6 +55,11 @@ schemas! {
         "type": "array", "items": { "type": "number", "format": "double" },
         "minItems": 2, "maxItems": 3, "perDimension": true
     };
+    /// A number or an expression for each dimension of the case.
+    FormulaPerDimension = {
+        "type": "array", "items": { "type": ["number", "string"] },
+        "minItems": 2, "maxItems": 3, "perDimension": true
+    };
     /// A number, 0 or above, for each dimension of the case.
     NonNegativePerDimension = {
         "type": "array", "items": { "type": "number", "format": "double", "minimum": 0 },

@@ -49,6 +49,10 @@ pub struct Output {
     /// Numbers in the field files.
     #[serde(default)]
     pub precision: Precision,
+    /// Whether `series.csv` has the loads and fluxes of all sides; absent: in cases without bodies or with a given mesh,
+    /// and in others those sides that a reference names.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sides: Option<bool>,
     /// States to resume from, written while a run is under way.
     #[serde(default)]
     pub checkpoint: Checkpoints,
@@ -91,6 +95,7 @@ impl Default for Output {
             fields: at_end(),
             series: every_step(),
             precision: Precision::default(),
+            sides: None,
             checkpoint: Checkpoints::default(),
         }
     }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::quantity::is_of_a_side;
 use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TreeError};
 use crate::text::type_error::suggestion;
@@ -59,7 +60,11 @@ impl SweepQuantity {
             return None;
         }
         let message = format!("a run has no quantity `{}`", self.statistic.quantity);
-        let help = suggestion(&self.statistic.quantity, &known);
+        let help = if is_of_a_side(model, &self.statistic.quantity) {
+            "quantities of sides need output.sides = true".to_owned()
+        } else {
+            suggestion(&self.statistic.quantity, &known)
+        };
         let mut diagnostic = Diagnostic::error("sweep.quantities", message, &help);
         diagnostic.location = self.origin.as_ref().map(Origin::location);
         Some(diagnostic)

@@ -26,15 +26,15 @@ pub use flexible_equation::FlexibleEquation;
 pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{
     BodyLoads, BodyStates, JointReport, LoadedBodies, MeanMotion, PropulsionPower, ResidualOnMesh,
-    SurfaceLoads, SurfaceStress, group_load, joint_reports, mean_motion, propulsion_power,
-    surface_loads,
+    SideFlow, SurfaceLoads, SurfaceStress, group_load, joint_reports, mean_motion,
+    propulsion_power, surface_loads,
 };
 pub use mean_flow::MeanFlowReport;
 pub use problem::{
     Arm, AttachedCoordinate, Attachment, BodyVector, Drive, FieldPart, Group, Joint, JointLaw,
     Length, LocalField, Magnet, MagneticField, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue,
-    OnBody, Pivot, Problem, RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn,
-    UniformField, VelocityProfile, angle_about, coordinate_ranges, second_moments,
+    OnBody, Pivot, PressureProfile, Problem, RateDiscontinuities, RigidBody, Side, Spring,
+    TimeValue, Turn, UniformField, VelocityProfile, angle_about, coordinate_ranges, second_moments,
 };
 pub use projection::DivergenceFreeProjection;
 pub use rigid_equations::{
@@ -43,4 +43,4 @@ pub use rigid_equations::{
 pub use shapes::{BodyShapes, ShapeError};
 pub use solution::Solution;
 pub use surface::{MovingSurface, RestPlaces};
-pub use system::{Configuration, FluidSystem, MeshedBodies};
+pub use system::{Configuration, FluidSystem, MeshedBodies, ResidualAt};

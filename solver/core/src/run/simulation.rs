@@ -8,8 +8,8 @@ use super::step_control::StepControl;
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
 use crate::coupling::{
-    BodiesAt, BodyLoads, BodyShapes, FluidSystem, MeshedBodies, Problem, ShapeError, SolverChoice,
-    SurfaceLoads,
+    BodiesAt, BodyLoads, BodyShapes, FluidSystem, MeshedBodies, Problem, ResidualAt, ShapeError,
+    SolverChoice, SurfaceLoads,
 };
 use crate::motion::{MovingMesh, replace_mesh};
 use crate::state::State;
@@ -223,7 +223,8 @@ impl<const D: usize> Simulation<D> {
     pub fn loads(&self, residual: &[f64]) -> SurfaceLoads {
         let Self { problem, state, work, .. } = self;
         let poses = state.in_mesh(&state.poses);
-        work.system.surface_loads(problem, &state.mesh, &poses, &state.now, residual)
+        let at = ResidualAt { solution: &state.now, residual, time: state.time };
+        work.system.surface_loads(problem, &state.mesh, &poses, at)
     }
 
     /// How fast the fluid crosses the cells.

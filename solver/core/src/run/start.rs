@@ -59,6 +59,9 @@ impl<const D: usize> Simulation<D> {
         let n_bodies = self.problem.bodies.len();
         let has_inertia = self.problem.has_inertia;
         // Without inertia the flow has no memory, and is that of the bodies' poses at any time
+        if has_inertia && self.problem.initial.is_some() {
+            return self.begin_with_given_flow();
+        }
         if settings.initial != Initial::Stokes && has_inertia {
             return Ok(StartFlow { loads: SurfaceLoads::none(n_bodies), iterations: 0 });
         }
@@ -74,6 +77,22 @@ impl<const D: usize> Simulation<D> {
         self.state.begin(InitialLevels::steady(flow.solution));
         let loads = self.loads(&flow.residual);
         Ok(StartFlow { loads, iterations: flow.iterations })
+    }
+
+    /// Starts from a velocity that is given, but for that of sides and bodies.
+    fn begin_with_given_flow(&mut self) -> Result<StartFlow, RunError> {
+        let Self { problem, state, work, .. } = self;
+        let (poses, shapes) = (state.in_mesh(&state.poses), BodyShapes::at(&problem.bodies, 0.0)?);
+        let bodies = BodiesAt { poses: &poses, shapes: &shapes };
+        let mut flow = state.now.clone();
+        for (velocity, place) in flow.velocity.iter_mut().zip(state.mesh.nodes.iter()) {
+            *velocity = problem.initial.as_ref().map_or(*velocity, |initial| initial(place, 0.0));
+        }
+        let constraints = work.system.constraints(problem, &state.mesh, bodies);
+        let flow = work.system.constrained(&constraints, &flow);
+        self.state.begin(InitialLevels::steady(flow));
+        let n_bodies = self.problem.bodies.len();
+        Ok(StartFlow { loads: SurfaceLoads::none(n_bodies), iterations: 0 })
     }
 }
 

@@ -10,7 +10,7 @@ use super::placement::Placement;
 use super::workspace::Workspace;
 use crate::body::{BodyLoad, LoadedBody, Pose, Twist};
 use crate::contact::{ContactLoads, LoadedFlow};
-use crate::coupling::{PropulsionPower, Solution, SolveError, SurfaceLoads};
+use crate::coupling::{PropulsionPower, ResidualAt, Solution, SolveError, SurfaceLoads};
 use crate::timing::Stage;
 
 /// The flow and the contact of one configuration.
@@ -134,7 +134,9 @@ impl<const D: usize> StepContext<'_, D> {
         };
         let (poses, solution) = (&configuration.placement.poses, &flow.solution);
         let in_mesh = state.in_mesh(poses);
-        let surfaces = system.surface_loads(problem, mesh, &in_mesh, solution, &residual);
+        let time = at.mean_flow.time;
+        let found = ResidualAt { solution, residual: &residual, time };
+        let surfaces = system.surface_loads(problem, mesh, &in_mesh, found);
         let stress = system.surface_stress(problem, mesh, solution);
         let twists = &solution.twists;
         let propulsion = state.propulsion_powers(problem, poses, twists, &surfaces.bodies, &stress);

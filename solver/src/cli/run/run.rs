@@ -10,6 +10,7 @@ use super::results::{
 use crate::case::{CaseFile, TimeSettings, WallTime};
 use crate::cli::complete;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::fidelity::Fidelity;
 use crate::cli::read::{CheckedCase, Settings, print_warnings, read_and_check};
 use crate::cli::style::say;
 use crate::runner::{self, Finished, Outcome, RunPlan, Stopped};
@@ -35,6 +36,9 @@ pub struct Options {
     case: String,
     #[command(flatten)]
     settings: Settings,
+    /// Which model of the swimmer is run
+    #[arg(long, value_name = "MODEL", default_value_t, value_enum)]
+    fidelity: Fidelity,
     /// Directory of the run; `runs/<case>` if absent
     #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
@@ -111,6 +115,8 @@ impl Options {
             words.extend(value.into_iter().flat_map(|value| [format!("--{name}"), value]));
         };
         self.settings.set.iter().for_each(|setting| option("set", Some(setting.clone())));
+        let is_other = self.fidelity != Fidelity::default();
+        option("fidelity", is_other.then(|| self.fidelity.name().to_owned()));
         option("out", self.out.as_ref().map(|out| out.display().to_string()));
         option("replay", self.replay.as_ref().map(|file| file.display().to_string()));
         option("threads", self.threads.map(|threads| threads.to_string()));
@@ -129,8 +135,15 @@ impl Options {
     }
 }
 
-/// Runs a case.
+/// Runs a case by the model that is asked for.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
+    match options.fidelity {
+        Fidelity::Ale => run_flow(options),
+    }
+}
+
+/// Runs a case by the full solver.
+fn run_flow(options: &Options) -> Result<Exit, Failure> {
     let CheckedCase { file, warnings } = read_and_check(&options.case, &options.settings.set)?;
     print_warnings(&warnings);
     let plan = RunPlan { warnings, ..options.plan(file) };

@@ -9,9 +9,9 @@ use super::body::joints::start;
 use crate::model::speed::{norm, weight};
 use crate::text::diagnostic::{Diagnostic, Severity};
 use crate::{
-    Body, BoundaryCondition, CaseFile, DomainSpec, GaitSpec, Geometry, Hold, Joint, JointKind,
-    LoadFrame, Lock, MeanFlowSpec, Model, Motion, Orientation, ShapeSpec, Stroke, TimeFunction,
-    TimeSettings,
+    Body, BoundaryCondition, CaseFile, DomainSpec, Formula, GaitSpec, Geometry, Hold, Joint,
+    JointKind, LoadFrame, Lock, MeanFlowSpec, Model, Motion, Orientation, ShapeSpec, Stroke,
+    TimeFunction, TimeSettings,
 };
 
 /// Length over that of a body, or angle (rad), below which a spring is at rest.
@@ -37,6 +37,8 @@ fn is_driven(model: &Model) -> bool {
     let case = &model.case;
     case.boundary.values().any(side_drives)
         || case.flow.as_ref().is_some_and(mean_flow_drives)
+        || case.fluid.force.iter().any(is_not_zero)
+        || case.initial.iter().flat_map(|initial| &initial.velocity).any(is_not_zero)
         || (0..model.bodies.len()).any(|body| {
             let own = &model.bodies[body];
             gait_drives(own)
@@ -59,9 +61,22 @@ fn acts(factor: Option<&TimeFunction>) -> bool {
     factor.is_none_or(|factor| factor.largest_integral(1.0) > 0.0)
 }
 
+fn is_not_zero(formula: &Formula) -> bool {
+    formula.number() != Some(0.0)
+}
+
 fn side_drives(side: &BoundaryCondition) -> bool {
     match side {
-        BoundaryCondition::Velocity { value, factor } => any(value) && acts(factor.as_ref()),
+        BoundaryCondition::Velocity { value, factor }
+        | BoundaryCondition::Traction { value, factor } => {
+            value.iter().any(is_not_zero) && acts(factor.as_ref())
+        }
+        BoundaryCondition::Pressure { value, factor } => {
+            is_not_zero(value) && acts(factor.as_ref())
+        }
+        BoundaryCondition::Developed { flux, peak, factor } => {
+            flux.or(*peak).unwrap_or(0.0) != 0.0 && acts(factor.as_ref())
+        }
         BoundaryCondition::Parabolic { peak, factor } => *peak != 0.0 && acts(factor.as_ref()),
         BoundaryCondition::Shear { rate, factor, .. } => *rate != 0.0 && acts(factor.as_ref()),
         BoundaryCondition::WavingSheet { amplitude, .. } => *amplitude != 0.0,

@@ -6,8 +6,9 @@ use super::given_mesh;
 use crate::model::region::{normal_axis, opposite};
 use crate::rules::Findings;
 use crate::rules::command::check_command;
+use crate::spec::formula::numbers;
 use crate::text::type_error::suggestion;
-use crate::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, TimeSettings};
+use crate::{BoundaryCondition, Case, DomainSpec, Formula, Geometry, TimeFunction, TimeSettings};
 
 /// Net inflow over gross flow above which it is an error.
 const BALANCE: f64 = 1e-9;
@@ -40,8 +41,9 @@ pub fn check(findings: &mut Findings<'_>) {
                 "nothing is said about the side{} `{list}`",
                 if bare.len() > 1 { "s" } else { "" }
             ),
-            "add to [boundary] for each: no-slip, do-nothing, traction-free, symmetry, \
-             { velocity = ... }, { parabolic = ... }, { shear = ... } or { periodic = ... }",
+            "add to [boundary] for each: no-slip, do-nothing, traction-free, symmetry, { pressure = ... }, \
+             { traction = ... }, { velocity = ... }, { parabolic = ... }, { developed = ... }, { shear = ... } or \
+             { periodic = ... }",
         );
     }
     check_balance(findings);
@@ -57,6 +59,7 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         DomainSpec::Cylinder { .. } => side == "wall" && !is_axisymmetric,
         DomainSpec::Mesh(_) => {
             given_mesh::check_side(findings, key, side, condition);
+            check_developed(findings, key, condition);
             check_factor_of(findings, key, condition);
             return;
         }
@@ -81,12 +84,17 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
             format!("`symmetry` holds on straight sides, and `{side}` is curved"),
             "write \"no-slip\" or \"traction-free\", or take a straight domain",
         ),
+        (_, BoundaryCondition::Developed { .. }) if is_curved => findings.error(
+            key,
+            format!("flow is developed on flat sides, and `{side}` is curved"),
+            "write { velocity = { value = [...] } }",
+        ),
         (_, BoundaryCondition::Periodic(partner)) => check_periodic(findings, key, side, partner),
         (_, BoundaryCondition::Parabolic { .. }) if !["left", "right"].contains(&side) => findings
             .error(
                 key,
                 format!("a parabolic velocity enters through `left` or `right`, not `{side}`"),
-                "on other sides write { velocity = { value = [u, v] } }",
+                "on other sides write { developed = { peak = ... } }, positive into the domain",
             ),
         (_, BoundaryCondition::Shear { .. }) if is_axisymmetric => findings.error(
             key,
@@ -98,7 +106,20 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         }
         _ => {}
     }
+    check_developed(findings, key, condition);
     check_factor_of(findings, key, condition);
+}
+
+/// A developed flow has its flux or its largest velocity.
+fn check_developed(findings: &mut Findings<'_>, key: &str, condition: &BoundaryCondition) {
+    let BoundaryCondition::Developed { flux, peak, .. } = condition else { return };
+    if flux.is_some() == peak.is_some() {
+        findings.error(
+            &format!("{key}.developed"),
+            "a developed flow has a `flux` or a `peak`, one of them".to_owned(),
+            "write { developed = { flux = ... } } (m3/s; m2/s planar) or { developed = { peak = ... } } (m/s)",
+        );
+    }
 }
 
 /// The factor in time of a condition, if it has one.
@@ -107,6 +128,9 @@ fn check_factor_of(findings: &mut Findings<'_>, key: &str, condition: &BoundaryC
         BoundaryCondition::Velocity { factor, .. } => ("velocity", factor),
         BoundaryCondition::Parabolic { factor, .. } => ("parabolic", factor),
         BoundaryCondition::Shear { factor, .. } => ("shear", factor),
+        BoundaryCondition::Developed { factor, .. } => ("developed", factor),
+        BoundaryCondition::Pressure { factor, .. } => ("pressure", factor),
+        BoundaryCondition::Traction { factor, .. } => ("traction", factor),
         _ => return,
     };
     if let Some(factor) = factor {
@@ -239,7 +263,8 @@ fn check_balance(findings: &mut Findings<'_>) {
     let mut groups: Vec<FlowGroup<'_>> = Vec::new();
     for (side, condition) in &case.boundary {
         let factor = factor_in_time(condition);
-        let inflow = inflow(case, side, condition);
+        // What is not known from the case alone is asked of its mesh, before a run
+        let Some(inflow) = inflow(case, side, condition) else { return };
         match groups.iter_mut().find(|group| group.factor == factor) {
             Some(group) => {
                 group.net += inflow;
@@ -280,18 +305,24 @@ fn factor_in_time(condition: &BoundaryCondition) -> Option<&TimeFunction> {
     match condition {
         BoundaryCondition::Velocity { factor, .. }
         | BoundaryCondition::Parabolic { factor, .. }
+        | BoundaryCondition::Developed { factor, .. }
         | BoundaryCondition::Shear { factor, .. } => factor.as_ref(),
         _ => None,
     }
 }
 
-/// Flow into the domain through a side without its factor in time (m2/s planar, m3/s otherwise).
-fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> f64 {
+/// Flow into the domain through a side without its factor in time (m2/s planar, m3/s otherwise), where the case tells.
+fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> Option<f64> {
+    match condition {
+        BoundaryCondition::Velocity { value, .. } => numbers(value)?,
+        BoundaryCondition::Developed { flux, .. } => return *flux,
+        _ => Vec::new(),
+    };
     if let Some(mesh) = case.given_mesh() {
         let shape = mesh.side_shape(side);
-        return shape.map_or(0.0, |shape| given_mesh::inflow_through(case, shape, condition));
+        return shape.map_or(Some(0.0), |shape| given_mesh::inflow_through(case, shape, condition));
     }
-    let Some(axis) = normal_axis(side) else { return wall_inflow(&case.domain, condition) };
+    let Some(axis) = normal_axis(side) else { return Some(wall_inflow(&case.domain, condition)) };
     let extent = case.extent();
     let lengths = extent.lengths();
     let area = match (&case.domain, case.geometry) {
@@ -302,7 +333,9 @@ fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> f64 {
         (_, _) => lengths[1 - axis],
     };
     let mean_velocity = match condition {
-        BoundaryCondition::Velocity { value, .. } => value.get(axis).copied().unwrap_or(0.0),
+        BoundaryCondition::Velocity { value, .. } => {
+            value.get(axis).and_then(Formula::number).unwrap_or(0.0)
+        }
         BoundaryCondition::Parabolic { peak, .. } if axis == 0 => {
             peak * match (&case.domain, case.geometry) {
                 (DomainSpec::Cylinder { .. }, _) => 1.0 / 2.0,
@@ -319,14 +352,18 @@ fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> f64 {
         _ => 0.0,
     };
     let inward = if matches!(side, "left" | "bottom" | "back") { 1.0 } else { -1.0 };
-    inward * mean_velocity * area
+    Some(inward * mean_velocity * area)
 }
 
 /// The same through a side that is not straight: what enters on one side of a closed surface leaves
 /// it on the other, but for velocities that are turned about an axis.
 fn wall_inflow(domain: &DomainSpec, condition: &BoundaryCondition) -> f64 {
     let BoundaryCondition::Velocity { value, .. } = condition else { return 0.0 };
-    let &[_, radial] = value.as_slice() else { return 0.0 };
+    let Some([_, radial]) =
+        numbers(value).as_deref().and_then(|all| <[f64; 2]>::try_from(all).ok())
+    else {
+        return 0.0;
+    };
     let area = match domain {
         // The radial part of a velocity along y on a sphere: 2 pi R^2 int sin^2
         DomainSpec::HalfDisc { radius, .. } => PI * PI * radius * radius,

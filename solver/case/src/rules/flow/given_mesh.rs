@@ -3,11 +3,16 @@
 use alewife_mesh::SideShape;
 
 use crate::rules::Findings;
-use crate::{BoundaryCondition, Case, Geometry};
+use crate::spec::formula::numbers;
+use crate::{BoundaryCondition, Case, Geometry, MeshFile};
 
 /// What it holds has been read; here is what does not go with the rest of the case.
 pub fn check(findings: &mut Findings<'_>) {
     let (case, model) = (findings.case(), findings.model());
+    for note in case.given_mesh().map(MeshFile::notes).unwrap_or_default() {
+        let help = "nothing has to be done if this is meant";
+        findings.warning("domain.mesh.file", note.clone(), help);
+    }
     if case.sides().contains(&"axis") {
         findings.error(
             "domain.mesh.file",
@@ -49,22 +54,33 @@ pub fn check_side(
             format!("`symmetry` holds on flat sides normal to x, y or z, and `{side}` is none"),
             "write \"no-slip\" or \"traction-free\", or turn the mesh in Gmsh",
         ),
-        BoundaryCondition::Parabolic { .. } if shape.circle.is_none() => findings.error(
-            key,
-            format!("`{side}` is not straight, or in space not flat with a round rim"),
-            "a parabolic velocity has its largest value in the middle of a straight side, or of a \
-             round flat one; on others write { velocity = { value = [...] } }",
-        ),
+        BoundaryCondition::Parabolic { .. } | BoundaryCondition::Developed { .. }
+            if !shape.is_flat =>
+        {
+            findings.error(
+                key,
+                format!("`{side}` is not straight, or in space not flat"),
+                "a flow is developed on a flat side; on others write { velocity = { value = [...] } }, of numbers or \
+                 expressions",
+            );
+        }
         _ => {}
     }
 }
 
 /// Flow into a given mesh through a side, without its factor in time (m2/s planar, m3/s otherwise).
-pub fn inflow_through(case: &Case, shape: &SideShape, condition: &BoundaryCondition) -> f64 {
-    match condition {
+pub fn inflow_through(
+    case: &Case,
+    shape: &SideShape,
+    condition: &BoundaryCondition,
+) -> Option<f64> {
+    Some(match condition {
         BoundaryCondition::Velocity { value, .. } => {
+            let value = numbers(value)?;
             -value.iter().zip(shape.area.iter()).map(|(u, area)| u * area).sum::<f64>()
         }
+        // Of another shape than a round one the mesh tells
+        BoundaryCondition::Parabolic { .. } if shape.circle.is_none() => return None,
         BoundaryCondition::Parabolic { peak, .. } => {
             let mean = if case.geometry == Geometry::Spatial { 1.0 / 2.0 } else { 2.0 / 3.0 };
             peak * mean * shape.area.norm()
@@ -74,5 +90,5 @@ pub fn inflow_through(case: &Case, shape: &SideShape, condition: &BoundaryCondit
             -rate * height * shape.area.x
         }
         _ => 0.0,
-    }
+    })
 }

@@ -112,7 +112,8 @@ fn check_determined(findings: &mut Findings<'_>, axis: usize) {
     if holder.is_none() && !model.bodies.iter().filter_map(|body| body.spring.as_ref()).any(ties) {
         beside_rod::unheld(findings, along);
     }
-    let is_driven = [gradient, force].iter().flatten().any(|value| *value != 0.0);
+    let is_pushed = case.fluid.force.get(axis).is_some_and(|force| force.number() != Some(0.0));
+    let is_driven = is_pushed || [gradient, force].iter().flatten().any(|value| *value != 0.0);
     match holder {
         Some(body) if gradient.or(velocity).or(force).is_none() => findings.error(
             &format!("body.{body}.motion"),

@@ -4,8 +4,9 @@ pub(crate) mod mean_flow;
 pub(crate) mod viscosity;
 
 use crate::spec::fluid::viscosity::ViscositySpec;
+use crate::spec::formula::Formula;
 #[cfg(test)]
-use crate::spec::number::{NonNegative, PerDimension};
+use crate::spec::number::{FormulaPerDimension, NonNegative, PerDimension};
 use serde::{Deserialize, Serialize};
 
 /// Which equations the fluid obeys.
@@ -39,4 +40,8 @@ pub struct Fluid {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub gravity: Vec<f64>,
+    /// Force per volume on the fluid (N/m3), one number or expression per dimension.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(with = "FormulaPerDimension"))]
+    pub force: Vec<Formula>,
 }

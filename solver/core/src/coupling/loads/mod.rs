@@ -5,6 +5,7 @@
 
 mod joint_loads;
 mod propulsion;
+mod side_loads;
 mod surface_load;
 
 use std::collections::HashMap;
@@ -16,7 +17,8 @@ pub use self::joint_loads::{BodyStates, JointReport, joint_reports};
 pub use self::propulsion::{
     LoadedBodies, MeanMotion, PropulsionPower, group_load, mean_motion, propulsion_power,
 };
-pub use self::surface_load::SurfaceStress;
+pub use self::side_loads::side_loads;
+pub use self::surface_load::{SideFlow, SurfaceStress};
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::problem::{Problem, Side};
 use crate::body::{Pose, Wrench, on_mesh};
@@ -42,6 +44,8 @@ pub struct SurfaceLoads {
     pub sides_force: Vector3<f64>,
     /// Force of sides and bodies on the fluid (N), but for that of a mean flow.
     pub boundary_force: Vector3<f64>,
+    /// Of the fluid on each side, by its boundary, the torque about the origin; empty at a start that solves nothing.
+    pub sides: Vec<Wrench>,
 }
 
 impl SurfaceLoads {
@@ -96,6 +100,7 @@ pub fn surface_loads<const D: usize>(
         sides_power: sides_power(problem, flow),
         sides_force,
         boundary_force: boundary_force(problem, flow, |_| true),
+        sides: Vec::new(),
     }
 }
 

@@ -1,9 +1,12 @@
 //! The load of the fluid on a boundary by integrating its stress: a cross-check of lower order.
 
-use alewife_mesh::{BoundaryId, Mesh, Point};
+use std::collections::BTreeMap;
+
+use alewife_mesh::{BoundaryId, Mesh, NodeId, Point};
 use nalgebra::SMatrix;
 
 use super::super::boundaries::Boundaries;
+use super::super::problem::Side;
 use crate::body::Wrench;
 use crate::flow::{Fields, Viscosity, squared_shear};
 use crate::space::{FacetRule, Metric};
@@ -23,6 +26,26 @@ pub struct SurfaceStress<'a, const D: usize> {
     pub viscosity: Viscosity,
     /// Velocity and pressure.
     pub fields: Fields<'a, D>,
+}
+
+/// Which traction is integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Traction {
+    /// sigma n.
+    Whole,
+    /// mu (grad u)^T n: what is left of it where mu du/dn - p n = 0.
+    OfDevelopedFlow,
+}
+
+/// What crosses a side, and the pressure on it.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SideFlow {
+    /// Integral of (u - u_frame) . n with n into the fluid (m3/s; m2/s planar).
+    pub influx: f64,
+    /// Integral of the pressure (N).
+    pub pressure: f64,
+    /// Area (m2; m planar).
+    pub area: f64,
 }
 
 /// The stress at one quadrature point of a boundary.
@@ -77,6 +100,102 @@ impl<const D: usize> SurfaceStress<'_, D> {
                 visit(&SurfacePoint { position: at.position, force: -traction, velocity });
             });
         }
+    }
+
+    /// Integrals of a traction times the basis of the nodes of a boundary that are wanted (N), n out of the fluid.
+    pub(super) fn nodal_tractions(
+        &self,
+        boundary: BoundaryId,
+        traction: Traction,
+        is_wanted: impl Fn(NodeId) -> bool,
+    ) -> BTreeMap<NodeId, Point<D>> {
+        let Self { mesh, fields, .. } = self;
+        let mut sums = BTreeMap::new();
+        for &facet in self.boundaries.facets_on(boundary) {
+            let facet = &mesh.facets[facet];
+            let wanted: Vec<NodeId> = mesh.facet_nodes(facet).filter(|&n| is_wanted(n)).collect();
+            if wanted.is_empty() {
+                continue;
+            }
+            let nodes = mesh.cell(facet.cell);
+            self.rule.for_each_point(mesh, facet, |at| {
+                let mut velocity = Point::<D>::zeros();
+                let mut gradient = SMatrix::<f64, D, D>::zeros();
+                for (a, &node) in nodes.iter().enumerate() {
+                    velocity += fields.velocity[node] * at.phi[a];
+                    gradient += fields.velocity[node] * at.grad_phi[a].transpose();
+                }
+                let viscosity = self.viscosity_at(&gradient, &velocity, &at.position);
+                let mut force = gradient.transpose() * at.normal_ds * viscosity;
+                if traction == Traction::Whole {
+                    let vertices = nodes.iter().zip(at.psi);
+                    let pressure: f64 =
+                        vertices.map(|(&node, psi)| fields.pressure[node] * psi).sum();
+                    force += gradient * at.normal_ds * viscosity - at.normal_ds * pressure;
+                }
+                for (&node, phi) in nodes.iter().zip(at.phi) {
+                    if wanted.contains(&node) {
+                        *sums.entry(node).or_insert_with(Point::<D>::zeros) += force * *phi;
+                    }
+                }
+            });
+        }
+        sums
+    }
+
+    /// Integrals over an open side of the traction that it is given at a time (s), with that of a developed flow beside a
+    /// pressure (N).
+    pub(super) fn given_tractions(
+        &self,
+        boundary: BoundaryId,
+        side: &Side<D>,
+        time: f64,
+    ) -> BTreeMap<NodeId, Point<D>> {
+        let mesh = self.mesh;
+        let mut sums = if matches!(side, Side::Pressure(_)) {
+            self.nodal_tractions(boundary, Traction::OfDevelopedFlow, |_| true)
+        } else {
+            BTreeMap::new()
+        };
+        for &facet in self.boundaries.facets_on(boundary) {
+            let facet = &mesh.facets[facet];
+            let (nodes, own): (_, Vec<NodeId>) =
+                (mesh.cell(facet.cell), mesh.facet_nodes(facet).collect());
+            self.rule.for_each_point(mesh, facet, |at| {
+                let area = at.normal_ds.norm();
+                let normal = if area > 0.0 { at.normal_ds / area } else { Point::zeros() };
+                let given = side.given_traction(&at.position, &normal, time);
+                let force = given.unwrap_or_else(Point::zeros) * area;
+                for (&node, phi) in nodes.iter().zip(at.phi).filter(|(node, _)| own.contains(node))
+                {
+                    *sums.entry(node).or_insert_with(Point::<D>::zeros) += force * *phi;
+                }
+            });
+        }
+        sums
+    }
+
+    /// What crosses a side that goes with a frame, and the pressure on it.
+    #[must_use]
+    pub fn side_flow(&self, boundary: BoundaryId, frame_velocity: &Point<D>) -> SideFlow {
+        let Self { mesh, fields, .. } = self;
+        let mut flow = SideFlow::default();
+        for &facet in self.boundaries.facets_on(boundary) {
+            let facet = &mesh.facets[facet];
+            let nodes = mesh.cell(facet.cell);
+            self.rule.for_each_point(mesh, facet, |at| {
+                let nodal =
+                    nodes.iter().zip(at.phi).map(|(&node, phi)| fields.velocity[node] * *phi);
+                let velocity: Point<D> = nodal.sum();
+                let vertices = nodes.iter().zip(at.psi);
+                let pressure: f64 = vertices.map(|(&node, psi)| fields.pressure[node] * psi).sum();
+                let area = at.normal_ds.norm();
+                flow.influx -= (velocity - frame_velocity).dot(&at.normal_ds);
+                flow.pressure += pressure * area;
+                flow.area += area;
+            });
+        }
+        flow
     }
 
     /// Rate at which the fluid carries kinetic energy over its density in through a boundary that goes with a frame

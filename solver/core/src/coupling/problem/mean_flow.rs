@@ -29,6 +29,8 @@ pub struct MeanFlow<const D: usize> {
 /// The same at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanFlowAt<const D: usize> {
+    /// The time (s), at which other loads on the fluid are taken, too.
+    pub time: f64,
     /// What is given along each coordinate.
     pub along: [MeanFlowAlong; D],
     /// Force per volume of fluid (N/m3).
@@ -47,13 +49,13 @@ impl<const D: usize> MeanFlow<D> {
             }
             MeanFlowAlong::Velocity(value) => MeanFlowAlong::Velocity(factor * value),
         });
-        MeanFlowAt { along, body_force: self.body_force * factor }
+        MeanFlowAt { time, along, body_force: self.body_force * factor }
     }
 }
 
 impl<const D: usize> Default for MeanFlowAt<D> {
     fn default() -> Self {
-        Self { along: [MeanFlowAlong::Nothing; D], body_force: Point::<D>::zeros() }
+        Self { time: 0.0, along: [MeanFlowAlong::Nothing; D], body_force: Point::<D>::zeros() }
     }
 }
 

@@ -22,7 +22,7 @@ pub(in crate::coupling) use joint::FreeArm;
 pub use joint::{Arm, Joint, JointLaw, Length, Pivot, Turn, angle_about};
 pub use magnet::{FieldPart, LocalField, Magnet, MagneticField, UniformField};
 pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
-pub use side::{Side, VelocityProfile};
+pub use side::{PressureProfile, Side, VelocityProfile};
 
 use crate::body::{Mode, Modes, Pose, Twist, on_mesh};
 use crate::flow::{BodyForce, Convection, LocalViscosity, Viscosity, ViscosityTerm};
@@ -51,6 +51,10 @@ pub struct Problem<const D: usize> {
     pub frame: Option<usize>,
     /// What drives the fluid along periodic directions.
     pub mean_flow: Option<MeanFlow<D>>,
+    /// Force per unit volume on the fluid (N/m3) by place (m) and time (s).
+    pub force: Option<VelocityProfile<D>>,
+    /// Velocity at the start (m/s), where it is not that of a fluid at rest.
+    pub initial: Option<VelocityProfile<D>>,
     /// Force per unit volume, for manufactured solutions.
     pub body_force: Option<BodyForce<'static, D>>,
     /// Times at which the rates of gaits jump, if they ever do.
@@ -208,10 +212,19 @@ impl<const D: usize> Problem<D> {
         })
     }
 
+    /// Whether forces or tractions on the fluid are given.
+    #[must_use]
+    pub fn has_given_loads(&self) -> bool {
+        let has_traction = |side: &Side<D>| matches!(side, Side::Pressure(_) | Side::Traction(_));
+        self.force.is_some() || self.sides.iter().flatten().any(has_traction)
+    }
+
     /// What is given of the mean flow at a time (s).
     #[must_use]
     pub fn mean_flow_at(&self, time: f64) -> MeanFlowAt<D> {
-        self.mean_flow.as_ref().map_or_else(MeanFlowAt::default, |mean_flow| mean_flow.at(time))
+        let mean_flow = self.mean_flow.as_ref();
+        let given = mean_flow.map_or_else(MeanFlowAt::default, |mean_flow| mean_flow.at(time));
+        MeanFlowAt { time, ..given }
     }
 
     /// Whether the power of bodies depends on the level of the pressure, which nothing fixes, by the
@@ -248,10 +261,11 @@ impl<const D: usize> Problem<D> {
         })
     }
 
-    /// Boundaries with the do-nothing condition.
+    /// Boundaries with the do-nothing condition, also those with a pressure beside it.
     #[must_use]
     pub fn do_nothing_sides(&self) -> Vec<usize> {
-        let is_open = |side: &Option<Side<D>>| matches!(side, Some(Side::DoNothing));
+        let is_open =
+            |side: &Option<Side<D>>| matches!(side, Some(Side::DoNothing | Side::Pressure(_)));
         let boundaries = self.sides.iter().enumerate().filter(|(_, side)| is_open(side));
         boundaries.map(|(boundary, _)| boundary).collect()
     }

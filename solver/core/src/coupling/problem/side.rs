@@ -5,6 +5,9 @@ use alewife_mesh::Point;
 /// A velocity as a function of position and time (m, s, m/s).
 pub type VelocityProfile<const D: usize> = Box<dyn Fn(&Point<D>, f64) -> Point<D> + Send + Sync>;
 
+/// A pressure as a function of position and time (m, s, Pa).
+pub type PressureProfile<const D: usize> = Box<dyn Fn(&Point<D>, f64) -> f64 + Send + Sync>;
+
 /// What holds on a boundary that is not a body.
 pub enum Side<const D: usize> {
     /// Given velocity. Where two such sides meet, a wall's value counts.
@@ -18,6 +21,10 @@ pub enum Side<const D: usize> {
     DoNothing,
     /// sigma n = 0.
     TractionFree,
+    /// mu du/dn - p n = -p_0 n with a given pressure p_0.
+    Pressure(PressureProfile<D>),
+    /// sigma n as given (Pa).
+    Traction(VelocityProfile<D>),
     /// No velocity along this coordinate, no traction along the others.
     Symmetry {
         /// 0 for x, 1 for y, 2 for z.
@@ -31,7 +38,23 @@ impl<const D: usize> Side<D> {
     /// Whether the traction is given, so that the side fixes the level of the pressure.
     #[must_use]
     pub fn is_open(&self) -> bool {
-        matches!(self, Self::DoNothing | Self::TractionFree)
+        matches!(self, Self::DoNothing | Self::TractionFree | Self::Pressure(_) | Self::Traction(_))
+    }
+
+    /// The given traction on the fluid (Pa) at a place (m) with a unit normal out of it at a time (s), beside that of a
+    /// developed flow; none of sides without one.
+    #[must_use]
+    pub fn given_traction(
+        &self,
+        place: &Point<D>,
+        normal: &Point<D>,
+        time: f64,
+    ) -> Option<Point<D>> {
+        match self {
+            Self::Pressure(pressure) => Some(normal * -pressure(place, time)),
+            Self::Traction(traction) => Some(traction(place, time)),
+            _ => None,
+        }
     }
 
     /// Whether fluid and bodies may move along a coordinate as a whole without being held here.
@@ -40,7 +63,11 @@ impl<const D: usize> Side<D> {
         match self {
             Self::Periodic => true,
             Self::Symmetry { normal_axis } => *normal_axis != axis,
-            Self::Velocity { .. } | Self::DoNothing | Self::TractionFree => false,
+            Self::Velocity { .. }
+            | Self::DoNothing
+            | Self::TractionFree
+            | Self::Pressure(_)
+            | Self::Traction(_) => false,
         }
     }
 }

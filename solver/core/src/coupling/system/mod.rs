@@ -6,6 +6,7 @@
 //! interface stress, no multiplier, and no added-mass instability at any density ratio.
 
 mod diagnosis;
+mod given_loads;
 mod mobility;
 mod net_flux;
 mod nullspace;
@@ -25,7 +26,7 @@ use super::error::SolveError;
 use super::linear_system::{
     Coefficients, Discretised, NewSystem, SolverChoice, SystemSolver, saddle_point, system_solver,
 };
-use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, surface_loads};
+use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, side_loads, surface_loads};
 use super::mass_tolerance::mass_tolerance;
 use super::mean_flow::{CellIntegrals, MeanFlowResponse};
 use super::pressure_mean::PressureMean;
@@ -53,6 +54,17 @@ pub struct Configuration<'a, const D: usize> {
     pub bodies: &'a RigidBodyEquations,
     /// What is given of the mean flow.
     pub mean_flow: MeanFlowAt<D>,
+}
+
+/// A solution at a time, with the raw residual of the fluid at it.
+#[derive(Debug, Clone, Copy)]
+pub struct ResidualAt<'a, const D: usize> {
+    /// The solution.
+    pub solution: &'a Solution<D>,
+    /// The residual.
+    pub residual: &'a [f64],
+    /// The time (s).
+    pub time: f64,
 }
 
 /// Bodies in a mesh, with what holds while the mesh lasts.
@@ -236,8 +248,7 @@ impl<const D: usize> FluidSystem<D> {
         problem: &Problem<D>,
         mesh: &Mesh<D>,
         poses: &[Pose],
-        solution: &Solution<D>,
-        residual: &[f64],
+        ResidualAt { solution, residual, time }: ResidualAt<'_, D>,
     ) -> SurfaceLoads {
         let flow = ResidualOnMesh {
             mesh,
@@ -247,6 +258,8 @@ impl<const D: usize> FluidSystem<D> {
             residual,
         };
         let mut loads = surface_loads(problem, poses, &flow);
+        let stress = self.surface_stress(problem, mesh, solution);
+        loads.sides = side_loads(problem, &flow, &stress, time);
         if self.cell.is_some() {
             for (body, (loads, twist)) in loads.bodies.iter_mut().zip(&solution.twists).enumerate()
             {

@@ -21,6 +21,7 @@ impl<const D: usize> FluidSystem<D> {
             let force = solution.pressure_gradient - at.mean_flow.body_force;
             cell.add(&self.layout, self.modes, [&force, &Point::<D>::zeros()], &mut raw);
         }
+        self.subtract_given_loads(at, &mut raw);
         raw
     }
 

@@ -51,13 +51,15 @@ fn the_recoil_of_a_period_is_that_of_its_times() {
             // Not at the end of the ramp, where second derivatives jump
             let time = transient + period * (f64::from(i) + 0.5) / 32.0;
             let now = at(time);
-            let step = 2e-3 * period;
-            let velocity = difference(|t| at(t).center, time, step);
-            let off = (velocity - now.velocity).norm() / recoil.largest_speed;
-            assert!(i % 8 != 3 || off < 1e-6, "{name}: {off:.1e}");
-            let turn = difference(|t| at(t).angle, time, step);
-            let off = (turn - now.angular_velocity).abs() / recoil.largest_angular_velocity;
-            assert!(i % 8 != 3 || off < 1e-6, "{name}: {off:.1e}");
+            if i % 8 == 3 {
+                let step = 2e-3 * period;
+                let velocity = difference(|t| at(t).center, time, step);
+                let off = (velocity - now.velocity).norm() / recoil.largest_speed;
+                assert!(off < 1e-6, "{name}: {off:.1e}");
+                let turn = difference(|t| at(t).angle, time, step);
+                let off = (turn - now.angular_velocity).abs() / recoil.largest_angular_velocity;
+                assert!(off < 1e-6, "{name}: {off:.1e}");
+            }
             speed = f64::max(speed, now.velocity.norm());
             turning = f64::max(turning, now.angular_velocity.abs());
             let opposite = at(time + 0.5 * period);

@@ -1,10 +1,13 @@
 //! From a `Case` to a `Problem`.
 
+mod balance;
 mod bodies;
+mod formulas;
 mod joints;
 mod magnets;
 mod motion_settings;
 mod rod;
+mod section;
 mod shape_motion;
 mod sides;
 mod sizing;
@@ -12,7 +15,9 @@ mod solid;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 
+use self::balance::check_net_inflow;
 use self::bodies::rigid_body;
+use self::formulas::vector;
 use self::joints::add_joint;
 use self::magnets::add_magnets;
 pub use self::motion_settings::motion_settings;
@@ -87,7 +92,7 @@ pub fn build_problem<const D: usize>(
                 None
             }
             BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
-            BoundaryKind::Side => Some(side(case, &known.name)?),
+            BoundaryKind::Side => Some(side(case, mesh, &known.name)?),
         });
     }
     for body in 0..bodies.len() {
@@ -113,11 +118,22 @@ pub fn build_problem<const D: usize>(
         groups: model.swimmers.iter().map(|swimmer| group(case, swimmer)).collect(),
         frame,
         mean_flow: mean_flow(case),
+        force: (!case.fluid.force.is_empty())
+            .then(|| vector(case, &case.fluid.force))
+            .transpose()?,
+        initial: case.initial.as_ref().map(|flow| vector(case, &flow.velocity)).transpose()?,
         body_force: None,
         rate_discontinuities: None,
     };
     problem.rate_discontinuities = rate_discontinuities(model, &problem);
     check_volumes(case, &problem)?;
+    check_net_inflow(case, &problem, mesh)?;
+    place_on_joints(&mut problem);
+    Ok(problem)
+}
+
+/// Puts bodies where their joints have them at time zero.
+fn place_on_joints<const D: usize>(problem: &mut Problem<D>) {
     let mut poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
     problem.apply_joints(&mut poses, 0.0);
     for (body, pose) in problem.bodies.iter_mut().zip(poses) {
@@ -131,7 +147,6 @@ pub fn build_problem<const D: usize>(
             };
         }
     }
-    Ok(problem)
 }
 
 /// The viscosity of the fluid.

@@ -1,6 +1,9 @@
 //! What holds on the sides of a domain.
 
-use alewife_mesh::{Circle, Point, SideShape};
+use alewife_mesh::{Circle, Mesh, Point, SideShape};
+
+use super::formulas::{number, vector};
+use super::section::{Amount, developed};
 
 use crate::case::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, normal_axis};
 use crate::coupling::{Side, VelocityProfile};
@@ -10,7 +13,11 @@ use crate::space::Metric;
 use crate::time::factor_at;
 
 /// What holds on a side of the domain.
-pub(super) fn side<const D: usize>(case: &Case, name: &str) -> Result<Side<D>, RunError> {
+pub(super) fn side<const D: usize>(
+    case: &Case,
+    mesh: &Mesh<D>,
+    name: &str,
+) -> Result<Side<D>, RunError> {
     let condition = case.boundary.get(name).ok_or_else(|| {
         RunError::Unsupported(format!("side `{name}` of the domain has no condition in [boundary]"))
     })?;
@@ -40,13 +47,32 @@ pub(super) fn side<const D: usize>(case: &Case, name: &str) -> Result<Side<D>, R
         BoundaryCondition::Periodic(_) => Side::Periodic,
         BoundaryCondition::Axis => Side::Symmetry { normal_axis: Metric::RADIAL },
         BoundaryCondition::Symmetry => Side::Symmetry { normal_axis: mirror_axis(case, name)? },
-        BoundaryCondition::Velocity { value, factor } => {
-            let value = Point::<D>::from_fn(|axis, _| value.get(axis).copied().unwrap_or(0.0));
-            scaled(Box::new(move |_, _| value), factor)
+        BoundaryCondition::Velocity { value, factor } => scaled(vector(case, value)?, factor),
+        BoundaryCondition::Pressure { value, factor } => {
+            let (pressure, factor) = (number(case, value)?, factor.clone());
+            Side::Pressure(Box::new(move |place, time| {
+                pressure(place, time) * factor_at(factor.as_ref(), time)
+            }))
+        }
+        BoundaryCondition::Traction { value, factor } => {
+            let (traction, factor) = (vector(case, value)?, factor.clone());
+            Side::Traction(Box::new(move |place, time| {
+                traction(place, time) * factor_at(factor.as_ref(), time)
+            }))
+        }
+        BoundaryCondition::Developed { flux, peak, factor } => {
+            let amount = flux.map(Amount::Flux).or(peak.map(Amount::Peak));
+            let amount = amount.ok_or_else(|| {
+                RunError::Unsupported(format!("side `{name}` has neither a flux nor a peak"))
+            })?;
+            scaled(developed(case, mesh, name, amount)?, factor)
         }
         BoundaryCondition::Parabolic { peak, factor } => {
             let profile = match case.given_mesh() {
-                Some(mesh) => parabola_through(mesh.side_shape(name), *peak, name)?,
+                Some(given) => match parabola_through(given.side_shape(name), *peak) {
+                    Some(parabola) => parabola,
+                    None => developed(case, mesh, name, Amount::Peak(*peak))?,
+                },
                 None => parabola(case, *peak),
             };
             scaled(profile, factor)
@@ -80,19 +106,16 @@ fn mirror_axis(case: &Case, side: &str) -> Result<usize, RunError> {
 }
 
 /// A velocity into a given mesh that is largest in the middle of a side, and zero at its ends or its
-/// round rim.
+/// round rim; `None` of other sides.
 fn parabola_through<const D: usize>(
     shape: Option<&SideShape>,
     peak: f64,
-    side: &str,
-) -> Result<VelocityProfile<D>, RunError> {
-    let known = shape.and_then(|shape| Some((shape.inward(), shape.circle?)));
-    let Some((inward, Circle { center, radius })) = known else {
-        return Err(RunError::Unsupported(format!("side `{side}` has no round rim")));
-    };
+) -> Option<VelocityProfile<D>> {
+    let shape = shape?;
+    let (inward, Circle { center, radius }) = (shape.inward(), shape.circle?);
     let velocity = Point::<D>::from_fn(|axis, _| peak * inward[axis]);
     let center = Point::<D>::from_fn(|axis, _| center[axis]);
-    Ok(Box::new(move |point, _| {
+    Some(Box::new(move |point, _| {
         velocity * (1.0 - (point - center).norm_squared() / (radius * radius))
     }))
 }

@@ -8,6 +8,7 @@ mod flow;
 mod integrals;
 mod momentum;
 mod probes;
+mod sides;
 mod swimmers;
 mod value;
 
@@ -20,6 +21,7 @@ use self::bodies::{
 pub(super) use self::flow::FlowMeasurement;
 use self::momentum::momentum_record;
 use self::probes::Probes;
+use self::sides::{measure_sides, side_names};
 use self::swimmers::SwimmerMeasurement;
 use super::RunError;
 use super::simulation::{CellCrossing, Simulation};
@@ -34,6 +36,8 @@ pub(super) struct Measure<const D: usize> {
     columns: Vec<Column>,
     names: Vec<String>,
     probes: Probes<D>,
+    /// Names of all sides, if any is measured.
+    sides: Vec<String>,
     coefficients: Coefficients,
     balances_energy: bool,
     balances_momentum: bool,
@@ -62,7 +66,9 @@ impl<const D: usize> Measure<D> {
     ) -> Result<Self, RunError> {
         let case = &model.case;
         let columns = columns(model);
+        let has_sides = columns.iter().any(|column| matches!(column.source, Source::Side(..)));
         Ok(Self {
+            sides: side_names(model, has_sides),
             names: columns.iter().map(|column| column.name.clone()).collect(),
             columns,
             probes: Probes::in_fluid(case, mesh, images)?,
@@ -115,6 +121,7 @@ impl<const D: usize> Measure<D> {
     ) -> Result<Measured, RunError> {
         let bodies = body_reports(simulation, &loads.bodies)?;
         let mut flow = FlowMeasurement::new(simulation, crossing);
+        let sides = measure_sides(&self.sides, simulation, loads);
         let Simulation { problem, state, moving_mesh, .. } = simulation;
         // One body has no gaps of its own
         let has_gaps = problem.groups.iter().any(|group| group.bodies.len() > 1);
@@ -145,6 +152,7 @@ impl<const D: usize> Measure<D> {
             Source::Swimmer(swimmer, quantity) => swimmers[swimmer].value(quantity),
             Source::Probe(probe, quantity) => probes[probe].value(quantity),
             Source::Flow(quantity) => flow.value(quantity),
+            Source::Side(side, quantity) => sides[side].value(quantity),
         };
         let of_column = |column: &Column| value(column).component(column.component);
         let values = self.columns.iter().map(of_column).collect();

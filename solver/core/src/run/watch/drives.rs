@@ -67,6 +67,12 @@ impl<const D: usize> Simulation<D> {
     fn power(&self, loads: &SurfaceLoads) -> Result<f64, ShapeError> {
         let Self { problem, state, work, .. } = self;
         let mut power = supplied(loads.sides_power) + self.energy_inflow();
+        power += supplied(work.system.power_of_given_loads(
+            problem,
+            &state.mesh,
+            &state.now,
+            state.time,
+        ));
         let mean_flow = work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now);
         let counted = self.counted();
         power += mean_flow.map_or(0.0, |report| supplied(report.power));
@@ -105,7 +111,13 @@ impl<const D: usize> Simulation<D> {
         let sides = problem.sides.iter().enumerate().filter(|(_, side)| {
             matches!(
                 side,
-                Some(Side::Velocity { is_wall: false, .. } | Side::DoNothing | Side::TractionFree)
+                Some(
+                    Side::Velocity { is_wall: false, .. }
+                        | Side::DoNothing
+                        | Side::TractionFree
+                        | Side::Pressure(_)
+                        | Side::Traction(_)
+                )
             )
         });
         let inflow = |(side, _): (usize, &Option<Side<D>>)| {
@@ -220,7 +232,7 @@ impl<const D: usize> Simulation<D> {
             _ => 0.0,
         };
         let force = mean_flow.along.map(gradient).map(f64::abs).into_iter().sum::<f64>();
-        (force + mean_flow.body_force.norm()) / self.problem.density
+        (force + mean_flow.body_force.norm() + self.given_loads()) / self.problem.density
     }
 
     /// The speed that is given, or that what drives gives by itself to a fluid or a body (m/s): loads by free fall, or

@@ -3,6 +3,7 @@
 mod blow_up;
 mod drives;
 mod force_agreement;
+mod given_loads;
 mod leaving;
 mod pace;
 mod resolution;

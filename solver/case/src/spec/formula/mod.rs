@@ -1,0 +1,263 @@
+//! `Formula`: a number, or an expression of x, y, z, t and the numbers of `[define]`.
+
+mod function;
+mod parse;
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::de::{self, Deserializer, Visitor};
+use serde::{Deserialize, Serialize};
+
+use self::function::Function;
+pub use self::parse::FormulaError;
+
+/// A number, or an expression as it is written.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum Formula {
+    /// The same everywhere and at all times.
+    Number(f64),
+    /// An expression of x, y, z (m), t (s) and numbers of `[define]`.
+    Expression(String),
+}
+
+/// The numbers of `[define]`, by their names.
+pub type Definitions = BTreeMap<String, f64>;
+
+/// Where and when an expression is evaluated: x, y, z (m) and t (s).
+pub type Place = [f64; 4];
+
+/// A formula whose names are known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParsedFormula {
+    root: Node,
+}
+
+/// A part of an expression.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Node {
+    Number(f64),
+    /// x, y, z or t by its number.
+    Variable(usize),
+    Call(Function, Vec<Node>),
+}
+
+impl Node {
+    fn at(&self, place: &Place) -> f64 {
+        match self {
+            Self::Number(value) => *value,
+            Self::Variable(which) => place[*which],
+            Self::Call(function, parts) => {
+                let value = |nth: usize| parts.get(nth).map_or(f64::NAN, |part| part.at(place));
+                function.value(value)
+            }
+        }
+    }
+
+    fn has(&self, variables: &[usize]) -> bool {
+        match self {
+            Self::Number(_) => false,
+            Self::Variable(which) => variables.contains(which),
+            Self::Call(_, parts) => parts.iter().any(|part| part.has(variables)),
+        }
+    }
+}
+
+impl ParsedFormula {
+    /// Its value at a place and a time.
+    #[must_use]
+    pub fn at(&self, place: &Place) -> f64 {
+        self.root.at(place)
+    }
+
+    /// Whether it changes in time.
+    #[must_use]
+    pub fn has_time(&self) -> bool {
+        self.root.has(&[3])
+    }
+
+    /// Whether it is the same everywhere and at all times.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        !self.root.has(&[0, 1, 2, 3])
+    }
+}
+
+impl Formula {
+    /// It, with the numbers that a case defines, in a problem of so many dimensions.
+    ///
+    /// # Errors
+    /// Where in the text something is not understood, and what would be.
+    pub fn parsed(
+        &self,
+        definitions: &Definitions,
+        dimensions: usize,
+    ) -> Result<ParsedFormula, FormulaError> {
+        let root = match self {
+            Self::Number(value) => Node::Number(*value),
+            Self::Expression(text) => parse::parse(text, definitions, dimensions)?,
+        };
+        Ok(ParsedFormula { root })
+    }
+
+    /// It, if it is written as a number.
+    #[must_use]
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(value) => Some(*value),
+            Self::Expression(_) => None,
+        }
+    }
+}
+
+/// Numbers, if all of these are written so.
+#[must_use]
+pub fn numbers(formulas: &[Formula]) -> Option<Vec<f64>> {
+    formulas.iter().map(Formula::number).collect()
+}
+
+/// Why a name cannot be one of `[define]`; nothing if it can.
+#[must_use]
+pub fn mistake_in_name(name: &str) -> Option<String> {
+    let is_word = name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if !is_word {
+        return Some("a name has letters, digits and _, a letter first".to_owned());
+    }
+    let is_taken = parse::VARIABLES.contains(&name)
+        || parse::CONSTANTS.iter().any(|(known, _)| *known == name)
+        || Function::named(name).is_some();
+    is_taken.then(|| "this name has a meaning in expressions already".to_owned())
+}
+
+impl fmt::Display for Formula {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(value) => write!(formatter, "{value}"),
+            Self::Expression(text) => write!(formatter, "\"{text}\""),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Formula {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct AsFormula;
+
+        impl Visitor<'_> for AsFormula {
+            type Value = Formula;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("a number, or an expression such as \"1 - y^2\"")
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Formula, E> {
+                Ok(Formula::Number(value))
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Formula, E> {
+                Ok(Formula::Number(value as f64))
+            }
+
+            fn visit_u64<E: de::Error>(self, value: u64) -> Result<Formula, E> {
+                Ok(Formula::Number(value as f64))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Formula, E> {
+                Ok(Formula::Expression(text.to_owned()))
+            }
+        }
+
+        deserializer.deserialize_any(AsFormula)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str, place: Place) -> f64 {
+        let definitions = Definitions::from([("Re".to_owned(), 20.0), ("u_max".to_owned(), 1.5)]);
+        let formula = Formula::Expression(text.to_owned());
+        formula.parsed(&definitions, 3).unwrap_or_else(|error| panic!("{text}: {error}")).at(&place)
+    }
+
+    #[test]
+    fn expressions_mean_what_they_mean_on_paper() {
+        let place = [3.0, 0.5, -2.0, 0.25];
+        for (text, wanted) in [
+            ("-3^2", -9.0),
+            ("-x^2", -9.0),
+            ("2^3^2", 512.0),
+            ("2^-1", 0.5),
+            ("2*-y^2", -0.5),
+            ("1e-3 * 1.5E3", 1.5),
+            (".5 + 2.", 2.5),
+            ("1 - 2 - 3", -4.0),
+            ("12 / 2 / 3", 2.0),
+            ("(x + y) * z", -7.0),
+            ("4*u_max*y*(1 - y)", 1.5),
+            ("1/Re", 0.05),
+            ("sin(2*pi*t)", 1.0),
+            ("max(x, 2, 7) - min(y, 1)", 6.5),
+            ("if(x > 2, 1, -1) + if(x < 2, 10, 20)", 21.0),
+            ("if(t <= 0.25, 1, 0) + if(t >= 0.26, 1, 0)", 1.0),
+            ("atan2(1, 1) * 4 / pi", 1.0),
+            ("exp(log(x)) + sqrt(16) + abs(z) + sign(z)", 8.0),
+            ("floor(2.7) + tanh(0) + cosh(0)", 3.0),
+            ("+x", 3.0),
+            ("--3", 3.0),
+        ] {
+            let found = value(text, place);
+            assert!((found - wanted).abs() < 1e-14, "{text} is {found}, not {wanted}");
+        }
+    }
+
+    #[test]
+    fn mistakes_have_their_place() {
+        let definitions = Definitions::from([("speed".to_owned(), 1.0)]);
+        for (text, column, part) in [
+            ("1 - w^2", 5, "`w`"),
+            ("sped * y", 1, "speed"),
+            ("1 +", 4, "the end"),
+            ("", 1, "the end"),
+            ("2 x", 3, "`x`"),
+            ("(1 + y", 7, "the end"),
+            ("1 + y)", 6, "`)`"),
+            ("sin y", 5, "`y`"),
+            ("sin(y, 2)", 1, "1 argument"),
+            ("atan2(y)", 1, "2 arguments"),
+            ("y ** 2", 4, "`*`"),
+            ("1 $ 2", 3, "`$`"),
+            ("sine(y)", 1, "sin"),
+            ("y(2)", 2, "`(`"),
+            ("1.2.3", 1, "1.2.3"),
+            ("1 < 2 < 3", 7, "`<`"),
+            ("z", 1, "z"),
+        ] {
+            let formula = Formula::Expression(text.to_owned());
+            let error = formula.parsed(&definitions, 2).expect_err(text);
+            assert_eq!(error.column, column, "{text}: {error}");
+            assert!(error.to_string().contains(part), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn deep_nesting_is_refused() {
+        let text = format!("{}1{}", "(".repeat(5000), ")".repeat(5000));
+        assert!(Formula::Expression(text).parsed(&Definitions::new(), 2).is_err());
+        let text = "-".repeat(5000) + "1";
+        assert!(Formula::Expression(text).parsed(&Definitions::new(), 2).is_err());
+    }
+
+    #[test]
+    fn what_an_expression_depends_on_is_known() {
+        let parsed = |text: &str| {
+            let formula = Formula::Expression(text.to_owned());
+            formula.parsed(&Definitions::new(), 3).unwrap()
+        };
+        assert!(parsed("sin(t)").has_time() && !parsed("x*y").has_time());
+        assert!(parsed("2*pi").is_constant() && !parsed("z").is_constant());
+    }
+}

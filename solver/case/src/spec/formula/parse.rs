@@ -1,0 +1,308 @@
+//! From the text of an expression to its parts: precedence climbing, each mistake with its column.
+//!
+//! Lowest first: comparisons, + and -, * and /, a sign, and ^, which is taken from the right: -x^2 is -(x^2).
+
+use std::fmt;
+
+use super::function::{Function, NAMED};
+use super::{Definitions, Node};
+use crate::text::nearest::nearest;
+
+/// What expressions depend on.
+pub const VARIABLES: [&str; 4] = ["x", "y", "z", "t"];
+
+/// Numbers with a name.
+pub const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
+
+/// Parts within parts, beyond which an expression is refused rather than the stack overflows.
+const DEEPEST: usize = 100;
+
+/// What is not understood in an expression.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FormulaError {
+    /// Character of the text, from 1.
+    pub column: usize,
+    /// What is there.
+    pub found: String,
+    /// What would be accepted.
+    pub accepted: String,
+}
+
+impl fmt::Display for FormulaError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "at character {}: {}; {}", self.column, self.found, self.accepted)
+    }
+}
+
+impl std::error::Error for FormulaError {}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Token {
+    Number(f64),
+    Name(String),
+    Sign(&'static str),
+    End,
+}
+
+impl fmt::Display for Token {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(value) => write!(formatter, "`{value}`"),
+            Self::Name(name) => write!(formatter, "`{name}`"),
+            Self::Sign(sign) => write!(formatter, "`{sign}`"),
+            Self::End => formatter.write_str("the end of the expression"),
+        }
+    }
+}
+
+/// Signs, longer ones first.
+const SIGNS: [&str; 12] = ["<=", ">=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
+
+fn tokens(text: &str) -> Result<Vec<(Token, usize)>, FormulaError> {
+    let characters: Vec<char> = text.chars().collect();
+    let mut tokens = Vec::new();
+    let mut at = 0;
+    while let Some(&first) = characters.get(at) {
+        if first.is_whitespace() {
+            at += 1;
+            continue;
+        }
+        let rest = &characters[at..];
+        let (token, length) = if first.is_ascii_digit() || first == '.' {
+            number(rest, at)?
+        } else if first.is_ascii_alphabetic() || first == '_' {
+            let is_in = |c: &&char| c.is_ascii_alphanumeric() || **c == '_';
+            let name: String = rest.iter().take_while(is_in).collect();
+            let length = name.len();
+            (Token::Name(name), length)
+        } else {
+            let begins =
+                |sign: &&str| sign.chars().zip(rest).filter(|(a, b)| a == *b).count() == sign.len();
+            let sign = SIGNS.iter().copied().find(|sign| begins(sign)).ok_or_else(|| {
+                let found = format!("`{first}`");
+                let accepted = "accepted: numbers, names, + - * / ^ < > <= >= ( ) ,".to_owned();
+                FormulaError { column: at + 1, found, accepted }
+            })?;
+            (Token::Sign(sign), sign.len())
+        };
+        tokens.push((token, at + 1));
+        at += length;
+    }
+    tokens.push((Token::End, characters.len() + 1));
+    Ok(tokens)
+}
+
+/// The number that a text begins with, and its length.
+fn number(rest: &[char], at: usize) -> Result<(Token, usize), FormulaError> {
+    let mut length = 0;
+    while let Some(&c) = rest.get(length) {
+        let before = length.checked_sub(1).map(|before| rest[before]);
+        let follows =
+            rest.get(length + 1).is_some_and(|next| next.is_ascii_digit() || "+-".contains(*next));
+        let is_exponent = matches!(c, 'e' | 'E') && follows;
+        let is_sign = matches!(c, '+' | '-') && matches!(before, Some('e' | 'E'));
+        if !(c.is_ascii_digit() || c == '.' || is_exponent || is_sign) {
+            break;
+        }
+        length += 1;
+    }
+    let text: String = rest[..length].iter().collect();
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok((Token::Number(value), length)),
+        _ => Err(FormulaError {
+            column: at + 1,
+            found: format!("`{text}` is no number"),
+            accepted: "write 1.5 or 2e-3".to_owned(),
+        }),
+    }
+}
+
+/// The parts of an expression.
+///
+/// # Errors
+/// Where something is not understood.
+pub fn parse(
+    text: &str,
+    definitions: &Definitions,
+    dimensions: usize,
+) -> Result<Node, FormulaError> {
+    let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, definitions, dimensions };
+    let root = parser.comparison()?;
+    match parser.next() {
+        (Token::End, _) => Ok(root),
+        (token, column) => Err(refuse(column, token.to_string(), "an operator is expected here")),
+    }
+}
+
+fn refuse(column: usize, found: String, accepted: &str) -> FormulaError {
+    FormulaError { column, found, accepted: accepted.to_owned() }
+}
+
+struct Parser<'a> {
+    tokens: Vec<(Token, usize)>,
+    at: usize,
+    depth: usize,
+    definitions: &'a Definitions,
+    dimensions: usize,
+}
+
+impl Parser<'_> {
+    fn peek(&self) -> &Token {
+        self.tokens.get(self.at).map_or(&Token::End, |(token, _)| token)
+    }
+
+    /// The next token, with its column; the end again and again.
+    fn next(&mut self) -> (Token, usize) {
+        let last = self.tokens.len() - 1;
+        let token = self.tokens[self.at.min(last)].clone();
+        self.at += 1;
+        token
+    }
+
+    /// Takes a sign if it is the next one.
+    fn takes(&mut self, sign: &str) -> bool {
+        let is_next = matches!(self.peek(), Token::Sign(next) if *next == sign);
+        self.at += usize::from(is_next);
+        is_next
+    }
+
+    /// One of these operators, if it is the next token.
+    fn operator(&mut self, known: &[(&str, Function)]) -> Option<Function> {
+        known.iter().find(|(sign, _)| self.takes(sign)).map(|(_, function)| *function)
+    }
+
+    fn comparison(&mut self) -> Result<Node, FormulaError> {
+        let left = self.sum()?;
+        let known = [
+            ("<=", Function::AtMost),
+            (">=", Function::AtLeast),
+            ("<", Function::Below),
+            (">", Function::Above),
+        ];
+        let Some(function) = self.operator(&known) else { return Ok(left) };
+        Ok(Node::Call(function, vec![left, self.sum()?]))
+    }
+
+    fn sum(&mut self) -> Result<Node, FormulaError> {
+        let mut left = self.product()?;
+        while let Some(function) = self.operator(&[("+", Function::Plus), ("-", Function::Minus)]) {
+            left = Node::Call(function, vec![left, self.product()?]);
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self) -> Result<Node, FormulaError> {
+        let mut left = self.signed()?;
+        while let Some(function) = self.operator(&[("*", Function::Times), ("/", Function::Over)]) {
+            left = Node::Call(function, vec![left, self.signed()?]);
+        }
+        Ok(left)
+    }
+
+    fn signed(&mut self) -> Result<Node, FormulaError> {
+        self.deeper()?;
+        let node = if self.takes("-") {
+            Node::Call(Function::Negative, vec![self.signed()?])
+        } else if self.takes("+") {
+            self.signed()?
+        } else {
+            self.power()?
+        };
+        self.depth -= 1;
+        Ok(node)
+    }
+
+    fn power(&mut self) -> Result<Node, FormulaError> {
+        let base = self.operand()?;
+        if !self.takes("^") {
+            return Ok(base);
+        }
+        Ok(Node::Call(Function::Power, vec![base, self.signed()?]))
+    }
+
+    fn deeper(&mut self) -> Result<(), FormulaError> {
+        self.depth += 1;
+        if self.depth <= DEEPEST {
+            return Ok(());
+        }
+        let column = self.tokens.get(self.at).map_or(1, |(_, column)| *column);
+        Err(refuse(column, format!("more than {DEEPEST} parts within parts"), "write less"))
+    }
+
+    fn operand(&mut self) -> Result<Node, FormulaError> {
+        match self.next() {
+            (Token::Number(value), _) => Ok(Node::Number(value)),
+            (Token::Name(name), column) => self.named(&name, column),
+            (Token::Sign("("), _) => {
+                let inside = self.comparison()?;
+                self.close()?;
+                Ok(inside)
+            }
+            (token, column) => {
+                let accepted = "a number, a name or ( is expected here";
+                Err(refuse(column, token.to_string(), accepted))
+            }
+        }
+    }
+
+    fn close(&mut self) -> Result<(), FormulaError> {
+        if self.takes(")") {
+            return Ok(());
+        }
+        let (token, column) = self.next();
+        Err(refuse(column, token.to_string(), "`)` or an operator is expected here"))
+    }
+
+    fn named(&mut self, name: &str, column: usize) -> Result<Node, FormulaError> {
+        if let Some(function) = Function::named(name) {
+            return self.call(name, column, function);
+        }
+        if let Some(which) = VARIABLES.iter().position(|known| *known == name) {
+            if which == 2 && self.dimensions < 3 {
+                let accepted = "x and y are the coordinates in the plane";
+                return Err(refuse(column, "there is no `z`".to_owned(), accepted));
+            }
+            return Ok(Node::Variable(which));
+        }
+        if let Some((_, value)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
+            return Ok(Node::Number(*value));
+        }
+        if let Some(value) = self.definitions.get(name) {
+            return Ok(Node::Number(*value));
+        }
+        let functions = NAMED.iter().map(|(name, _)| *name);
+        let variables = VARIABLES.iter().copied().take(self.dimensions).chain(["t", "pi", "e"]);
+        let own = self.definitions.keys().map(String::as_str);
+        let known: Vec<&str> = own.chain(variables).chain(functions).collect();
+        let near = nearest(name, &known);
+        let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+        let accepted = format!("{near}known: {}; numbers get names in [define]", known.join(", "));
+        Err(FormulaError { column, found: format!("there is no `{name}`"), accepted })
+    }
+
+    fn call(
+        &mut self,
+        name: &str,
+        column: usize,
+        function: Function,
+    ) -> Result<Node, FormulaError> {
+        if !self.takes("(") {
+            let (token, column) = self.next();
+            let accepted = format!("write {name}(...)");
+            return Err(FormulaError { column, found: token.to_string(), accepted });
+        }
+        let mut parts = vec![self.comparison()?];
+        while self.takes(",") {
+            parts.push(self.comparison()?);
+        }
+        self.close()?;
+        let [least, most] = function.arguments();
+        if (least..=most).contains(&parts.len()) {
+            return Ok(Node::Call(function, parts));
+        }
+        let plural = if least == 1 { "" } else { "s" };
+        let more = if most > least { " or more" } else { "" };
+        let found = format!("`{name}` has {} of its {least}{more} argument{plural}", parts.len());
+        Err(refuse(column, found, "separate them by commas"))
+    }
+}

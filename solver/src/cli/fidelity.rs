@@ -1,0 +1,20 @@
+//! `Fidelity`: which of the models of a swimmer a command takes, the full solver or one without a flow.
+
+use clap::ValueEnum;
+
+/// Models of a swimmer, the dearest first.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum Fidelity {
+    /// The full solver: flow on a mesh that follows the bodies
+    #[default]
+    Ale,
+}
+
+impl Fidelity {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ale => "ale",
+        }
+    }
+}
