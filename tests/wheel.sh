@@ -67,6 +67,11 @@ from alewife_post import open_run
 run = alewife.load("squirmer-alone").set("mesh.scale", 2).run(threads=1)
 assert abs(run.quantities["squirmer.velocity.x"] - 1) < 0.01, run.quantities
 assert open_run(run.path).status["state"] == "finished"
+# What a report carries lies beside its code
+from importlib.resources import files
+
+for name in ("three.min.js", "three.LICENSE", "viewer.js", "page.css"):
+    assert (files("alewife_post") / "browser" / name).is_file(), name
 PYTHON
     cmp "$1/share/man/man1/alewife-run.1" "$root/postprocess/commands/data/share/man/man1/alewife-run.1"
     local said code=0

@@ -49,6 +49,16 @@ def test_a_figure_says_what_its_colours_leave_out(run: Run, tmp_path: Path) -> N
     assert "pressure (Pa) on bodies" in (tmp_path / "scene.svg").read_text()
 
 
+def test_a_scene_has_a_view_of_its_own(
+    run: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = ["picture", str(run.path), "--scene", "--out", str(tmp_path / "a.png")]
+    assert main([*given, "--slice", "z=1", "--frame", "block"]) == 2
+    assert "leave out --slice, --frame" in capsys.readouterr().err
+    assert main([*given, "--quantity", "mesh"]) == 2
+    assert "no quantity of a scene mesh; there are speed" in capsys.readouterr().err
+
+
 def test_the_gallery_shows_the_scene(run: Run) -> None:
     assert len(gallery.default_picture(run).axes) == 3
 

@@ -129,6 +129,10 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
     if options.iso or (options.follow and not options.slice):
         return _still(run, options)
     if options.scene:
+        given = ("slice", "surface", "iso", "follow", "view", "frame", "lines", "half")
+        beside = [f"--{name}" for name in given if getattr(options, name)]
+        if beside:
+            raise ValueError(f"--scene has a view of its own: leave out {', '.join(beside)}")
         return stills.scene_picture(
             run,
             quantity=options.quantity or "speed",

@@ -311,14 +311,14 @@ def draw_streamlines(
         axes.add_patch(PathPatch(path, facecolor=colour, edgecolor="none", zorder=zorder))
 
 
-def draw_particles(axes: Axes, lines: list[Array], heads: Array, *, is_mirrored: bool) -> None:
+def draw_particles(
+    axes: Axes, lines: list[Array], heads: Array, colour: str, *, is_mirrored: bool
+) -> None:
     """Streak lines or tails, and particles, `(n, 3)`; of a flow about an axis on both sides."""
     for sign in (1.0, -1.0) if is_mirrored else (1.0,):
         for line in lines:
-            axes.plot(line[:, 0], sign * line[:, 1], color=style.PARTICLE, lw=0.9, zorder=6.2)
-        axes.plot(
-            heads[:, 0], sign * heads[:, 1], ".", color=style.PARTICLE, ms=3.0, zorder=6.3, mew=0.0
-        )
+            axes.plot(line[:, 0], sign * line[:, 1], color=colour, lw=0.7, zorder=6.2)
+        axes.plot(heads[:, 0], sign * heads[:, 1], ".", color=colour, ms=2.5, zorder=6.3, mew=0.0)
 
 
 def colour_bar(

@@ -86,9 +86,10 @@ def images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]
         _paint_moment(page.axes, run, moment, seen(nth), (request, look))
         if tracks is not None:
             is_mirrored = run.is_axisymmetric and request.mirror
-            drawing.draw_particles(
-                page.axes, *tracks.shown(run, moment.time), is_mirrored=is_mirrored
-            )
+            lines, heads = tracks.shown(run, moment.time)
+            light = request.quantity != "speed"
+            colour = style.STREAMLINE_ON_LIGHT if light else style.STREAMLINE
+            drawing.draw_particles(page.axes, lines, heads, colour, is_mirrored=is_mirrored)
         _place(page.axes, view + np.repeat(back[nth], 2), moved[nth])
         yield page.image(time_stamp(run, moment.time))
 

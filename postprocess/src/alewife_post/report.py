@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import matplotlib
 import numpy as np
 
-from alewife_post import gallery, scene, scenery, series, style, summary
+from alewife_post import figure, gallery, scene, scenery, series, stills, style, summary
 from alewife_post.read import Run, check_run
 
 if TYPE_CHECKING:
@@ -108,7 +108,11 @@ def _scene(run: Run, time: float | None) -> list[str]:
     given = json.dumps(_given(run, shown), separators=(",", ":")).replace("<", "\\u003c")
     still = ""
     if scene.can_render():
-        png = base64.b64encode(gallery.small_png(gallery.default_picture(run))).decode()
+        if run.is_spatial:
+            drawn = stills.figure_of(run, shown)
+        else:
+            drawn = figure.picture(run, "speed", time=shown.time)
+        png = base64.b64encode(gallery.small_png(drawn)).decode()
         still = f'<img alt="the flow" src="data:image/png;base64,{png}">'
     return [
         f"<h2>Flow{_text(at)}</h2>",

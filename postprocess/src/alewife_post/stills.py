@@ -46,8 +46,18 @@ def scene_picture(
     check_run(run, is_spatial=True, instead="figure.picture")
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
+    return figure_of(run, scenery.scenery(run, time), look_from=look_from, quantity=quantity)
+
+
+def figure_of(
+    run: Run,
+    shown: scenery.Scenery,
+    *,
+    look_from: tuple[float, float] | None = None,
+    quantity: str = "speed",
+) -> Figure:
+    """The figure of a scene that is known."""
     style.use()
-    shown = scenery.scenery(run, time)
     chosen = {**SHOWN, scenery.FLUID: quantity}
     scales = [
         (part.name, chosen[part.name])

@@ -19,6 +19,8 @@ Array = np.ndarray
 
 PATHS, PARTICLES, LINES = "paths.csv", "particles.csv", "paths.vtp"
 """Files of a directory."""
+GAP = 2.0
+"""Neighbours on a streak line that are so many times as far apart as usual are not joined."""
 TAIL = 0.12
 """Part of the time of all paths that a particle has behind it, where there is no streak line."""
 
@@ -118,6 +120,7 @@ class Tracks:
                 last = [n for n in own if self.seed[n] == seed]
                 last.sort(key=lambda n: self.released[n])
                 lines.append(np.array([now[n] for n in last]))
+            lines = _parted(lines)
         else:
             for n in own:
                 kept = (self.time[n] > time - TAIL * span) & (self.time[n] < time)
@@ -126,6 +129,20 @@ class Tracks:
         points = [piece[-1:] for n in own for piece in trail(run.case, now[n][None])]
         heads = np.concatenate(points) if points else np.zeros((0, 3))
         return [piece for piece in parted if len(piece) > 1], heads
+
+
+def _parted(lines: list[Array]) -> list[Array]:
+    """Streak lines without the gaps between particles that the flow has taken far apart."""
+    steps = [np.linalg.norm(np.diff(line, axis=0), axis=1) for line in lines]
+    every = np.concatenate(steps) if steps else np.zeros(0)
+    if not len(every):
+        return lines
+    most = GAP * float(np.median(every))
+    return [
+        piece
+        for line, step in zip(lines, steps, strict=True)
+        for piece in np.split(line, np.flatnonzero(step > most) + 1)
+    ]
 
 
 def _at(times: Array, places: Array, time: float) -> Array:
