@@ -11,7 +11,7 @@ pub(crate) mod fluid;
 pub(crate) mod mesh;
 pub(crate) mod mesh_file;
 #[cfg(test)]
-mod number;
+pub mod number;
 pub(crate) mod output;
 pub(crate) mod time;
 mod time_function;
