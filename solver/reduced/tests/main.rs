@@ -1,5 +1,6 @@
-//! The soft tier: gradients against differences, searches, and a twin of a recorded swimmer.
+//! The soft tier: gradients against differences, cases, searches, and a twin of a recorded swimmer.
 
+mod cases;
 mod gradients;
 mod searches;
 mod swimmers;
