@@ -22,7 +22,12 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut files =
         String::from("/// Files of shipped cases.\nstatic FILES: &[ShippedFile] = &[\n");
-    let mut table = String::from("/// Shipped cases, by name.\nstatic SHIPPED: &[Shipped] = &[\n");
+    let mut tables = [
+        String::from(
+            "/// Shipped cases of the full solver, by name.\nstatic SHIPPED: &[Shipped] = &[\n",
+        ),
+        String::from("/// Shipped soft cases, by name.\nstatic SOFT: &[Shipped] = &[\n"),
+    ];
     for folder in folders {
         let file = folder.join("case.toml");
         let Some(name) = folder.file_name().and_then(|name| name.to_str()) else { continue };
@@ -40,25 +45,27 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let path = format!("cases/{name}/case.toml");
         let text = file.canonicalize()?;
+        // A case of an elastic body without a flow says so by its table
+        let is_soft = fs::read_to_string(&text)?.lines().any(|line| line.trim_end() == "[soft]");
         writeln!(
-            table,
+            tables[usize::from(is_soft)],
             "    Shipped {{ name: {name:?}, file: {path:?}, text: include_str!({text:?}) }},"
         )?;
     }
-    table.push_str("];\n");
-    table.push_str(&files);
-    table.push_str("];\n");
-    fs::write(Path::new(&env::var("OUT_DIR")?).join("shipped_cases.rs"), table)?;
+    let [flow, soft] = tables;
+    let text = format!("{flow}];\n{soft}];\n{files}];\n");
+    fs::write(Path::new(&env::var("OUT_DIR")?).join("shipped_cases.rs"), text)?;
     Ok(())
 }
 
-/// Files of a folder that its case may name: meshes of Gmsh, and the table of references.
+/// Files of a folder that its case may name: meshes of Gmsh, a recorded motion, and the table of references.
 fn named_files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         let is_mesh = path.extension().is_some_and(|extension| extension == "msh");
-        if is_mesh || path.ends_with("references.csv") {
+        let is_record = path.file_name().is_some_and(|name| name == "record.csv");
+        if is_mesh || is_record || path.ends_with("references.csv") {
             files.push(path);
         }
     }

@@ -4,6 +4,7 @@ mod model;
 mod quantity;
 mod read;
 mod rules;
+pub mod soft;
 mod spec;
 mod sweep;
 mod text;

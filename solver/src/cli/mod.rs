@@ -14,6 +14,7 @@ mod parent;
 mod plot;
 mod read;
 mod run;
+mod soft;
 mod status;
 mod style;
 mod sweep;
@@ -23,6 +24,7 @@ mod verify;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use alewife_reduced::tier::Which;
 use clap::{CommandFactory, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 
@@ -42,6 +44,7 @@ Examples:
   alewife check my.toml                         read it, mesh it, measure what a step takes
   alewife run my.toml --set mesh.scale=0.5      the same on a mesh twice as fine
   alewife sweep run my.toml --set fluid.viscosity=1:100:9:log
+  alewife calibrate starfish-twin               find numbers of an elastic body from its motion
   alewife validate --quick                      do the shipped cases agree with their references?
 
 A CASE is the path of a .toml file, the name of a shipped case, or either with /VARIANT behind it.
@@ -108,6 +111,12 @@ enum Command {
     Run(run::Options),
     /// Print how quantities of a steady flow change with numbers of its case
     Gradient(gradient::Options),
+    /// Find the numbers of a soft case that make it move as recorded
+    Calibrate(soft::SearchOptions),
+    /// Find the numbers of a soft case that make its objective large
+    Optimise(soft::SearchOptions),
+    /// Optimise, have a robot move so, and calibrate by what is seen, in turns
+    Loop(soft::LoopOptions),
     /// Draw quantities of a run over time, as text
     Plot(plot::Options),
     /// Show how far a run is
@@ -122,7 +131,11 @@ enum Command {
     ///
     /// Editors complete and check case files with it: write it to a file and put
     /// `#:schema ./alewife.schema.json` in the first line of the case.
-    Schema,
+    Schema {
+        /// That of soft cases
+        #[arg(long)]
+        soft: bool,
+    },
     /// Print what a shell needs to complete commands, options, cases, keys and quantities
     ///
     /// For bash, in ~/.bashrc: source <(alewife completions bash)
@@ -181,13 +194,17 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         }
         Command::Run(options) => run::run(&options),
         Command::Gradient(options) => gradient::gradient(&options),
+        Command::Calibrate(options) => soft::seek(&options, Which::Calibration),
+        Command::Optimise(options) => soft::seek(&options, Which::Optimisation),
+        Command::Loop(options) => soft::rounds(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),
         Command::Verify(options) => verify::verify(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::Validate(options) => validate::validate(&options),
-        Command::Schema => {
-            say(crate::case::schema().trim_end());
+        Command::Schema { soft } => {
+            let schema = if soft { crate::case::soft::schema() } else { crate::case::schema() };
+            say(schema.trim_end());
             Ok(Exit::Done)
         }
         Command::Completions { shell } => complete::completions(shell, &CommandLine::command()),

@@ -9,7 +9,7 @@
 pub(crate) mod case_text;
 pub mod library;
 pub(crate) mod problem_keys;
-mod read_mesh;
+pub(crate) mod read_mesh;
 pub(crate) mod recording;
 mod reference_rows;
 mod reference_table;
@@ -153,7 +153,7 @@ impl Case {
     }
 }
 
-fn collect_numbers(node: &TomlNode, path: String, numbers: &mut Vec<WrittenNumber>) {
+pub(crate) fn collect_numbers(node: &TomlNode, path: String, numbers: &mut Vec<WrittenNumber>) {
     match &node.value {
         TomlValue::Float(value) => numbers.push(WrittenNumber { path, value: *value }),
         TomlValue::Integer(value) => {
@@ -177,7 +177,7 @@ fn collect_numbers(node: &TomlNode, path: String, numbers: &mut Vec<WrittenNumbe
 #[derive(Debug, Clone)]
 pub(crate) struct UntypedCase {
     /// Name, and name of the file.
-    names: [String; 2],
+    pub names: [String; 2],
     variant: Option<String>,
     variants: Vec<String>,
     /// The case, without its sweep.
@@ -252,7 +252,7 @@ impl UntypedCase {
 }
 
 /// Where the value at a dotted path is written, or the table it would stand in.
-fn location(root: &TomlNode, path: &str) -> Option<Location> {
+pub(crate) fn location(root: &TomlNode, path: &str) -> Option<Location> {
     let Found { node, is_exact } = root.find(path);
     // A default is nowhere: its table is the next best location, by its header or its key.
     let is_value = is_exact && (node.table().is_none() || node.is_inline());
