@@ -5,9 +5,10 @@ use std::sync::Arc;
 use alewife_mesh::spatial::{SectionHeight, Sections};
 use alewife_mesh::{FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape, Spline};
 
+use crate::spec::body::motion::by_axis::Settled;
 use crate::spec::body::solid_shape;
 use crate::spec::body::solid_shape::Measures;
-use crate::{Body, FishShape, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
+use crate::{Body, Case, FishShape, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
 
 /// Directions in which the width of a spline is measured.
 const DIRECTIONS: u32 = 90;
@@ -271,7 +272,11 @@ impl Body {
         let mut translations = geometry.motions().iter().filter(is_translation);
         match &self.motion {
             Motion::Held => false,
-            Motion::Free => translations.any(|motion| !self.locked.contains(motion)),
+            Motion::Free => {
+                let is_driven = self.driven.iter().any(|driven| driven.motion != Lock::Rotation);
+                is_driven || translations.any(|motion| !self.locked.contains(motion))
+            }
+            Motion::ByAxis(_) => true,
             Motion::Imposed(imposed) => imposed.velocity.iter().any(|part| *part != 0.0),
         }
     }
@@ -281,9 +286,25 @@ impl Body {
     pub fn turns(&self) -> bool {
         match &self.motion {
             Motion::Held => false,
-            Motion::Free => !self.locked.contains(&Lock::Rotation),
+            Motion::Free => !self.locked.contains(&Lock::Rotation) || self.drives(Lock::Rotation),
+            Motion::ByAxis(_) => true,
             Motion::Imposed(imposed) => !imposed.angular_velocity.is_zero(),
         }
+    }
+
+    /// Has motions by axis be those of a free body that are locked, or locked and driven.
+    pub(crate) fn settle_motion(&mut self) {
+        let Motion::ByAxis(motions) = &self.motion else { return };
+        let Settled { moves, locked, driven } = motions.settled();
+        self.motion = if moves { Motion::Free } else { Motion::Held };
+        self.locked = if moves { locked } else { Vec::new() };
+        self.driven = driven;
+    }
+
+    /// Whether the rate of a motion is given while others may be free.
+    #[must_use]
+    pub fn drives(&self, motion: Lock) -> bool {
+        self.driven.iter().any(|driven| driven.motion == motion)
     }
 
     /// Whether its outline changes in time.
@@ -304,10 +325,17 @@ impl Body {
         }
     }
 
-    /// Whether the body looks the same however it is turned.
+    /// Whether the body looks the same however it turns about its centre of mass.
     #[must_use]
     pub fn is_round(&self) -> bool {
-        matches!(self.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. })
+        let is_centred = self.center_of_mass.iter().all(|part| *part == 0.0);
+        is_centred && matches!(self.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. })
+    }
+
+    /// Its mass (kg; kg/m planar) in a case, by the volume of its shape (m3; m2 planar) where none is given.
+    pub(crate) fn mass_in(&self, case: &Case) -> f64 {
+        let density = self.density.unwrap_or(case.fluid.density);
+        self.mass.unwrap_or_else(|| density * self.shape.volume_in(case.geometry))
     }
 }
 

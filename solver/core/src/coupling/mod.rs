@@ -32,9 +32,10 @@ pub use loads::{
 pub use mean_flow::MeanFlowReport;
 pub use problem::{
     Arm, AttachedCoordinate, Attachment, BodyVector, Drive, FieldPart, Group, Joint, JointLaw,
-    Length, LocalField, Magnet, MagneticField, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue,
-    OnBody, Pivot, PressureProfile, Problem, RateDiscontinuities, RigidBody, Side, Spring,
-    TimeValue, Turn, UniformField, VelocityProfile, angle_about, coordinate_ranges, second_moments,
+    Length, Lever, LocalField, Magnet, MagneticField, MeanFlow, MeanFlowAlong, MeanFlowAt,
+    MovingValue, OnBody, Pivot, PressureProfile, Problem, RateDiscontinuities, RigidBody, Side,
+    Spring, TimeValue, Turn, UniformField, VelocityProfile, angle_about, coordinate_ranges,
+    second_moments,
 };
 pub use projection::DivergenceFreeProjection;
 pub use rigid_equations::{

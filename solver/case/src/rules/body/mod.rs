@@ -6,6 +6,7 @@ pub(super) mod bodies;
 mod gait;
 pub(super) mod joints;
 mod joints_in_space;
+pub(super) mod motion;
 mod rod;
 mod skin;
 mod solid;
