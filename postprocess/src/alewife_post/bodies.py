@@ -81,6 +81,12 @@ def _simple_shape(given: dict[str, Any]) -> Shape | None:
             # The pose is that of the centre of mass, the points have an origin of their own.
             outline = smooth_outline(np.array(values["points"]))
             return Shape(0.0, [], [outline - centroid(outline)])
+        case "polygon" if "points" in values:
+            outline = np.array(values["points"])
+            return Shape(0.0, [], [outline - centroid(outline)])
+        case "box":
+            corners_of_box = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
+            return Shape(0.0, [], [0.5 * corners_of_box * values["size"]])
         case _:
             return None
     turn = np.array([0.0, 0.0, 0.0, 1.0])

@@ -14,6 +14,7 @@ mod read;
 mod run;
 mod status;
 mod style;
+mod surface;
 mod sweep;
 mod validate;
 mod verify;
@@ -108,6 +109,8 @@ enum Command {
     Plot(plot::Options),
     /// Show how far a run is
     Status(status::Options),
+    /// Report what a file of triangles encloses and whether it can be a body, and repair it
+    Surface(surface::Options),
     /// Check that what runs and sweeps have left is whole and agrees; nothing is run
     Verify(verify::Options),
     /// Run a case at many points: with several values of some of its keys
@@ -178,6 +181,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         Command::Run(options) => run::run(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),
+        Command::Surface(options) => surface::surface(&options),
         Command::Verify(options) => verify::verify(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::Validate(options) => validate::validate(&options),
