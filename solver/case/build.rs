@@ -1,4 +1,4 @@
-//! Embeds `cases/*/case.toml`, references and meshes beside them in the program.
+//! Embeds `cases/*/case.toml`, references, meshes and surfaces beside them in the program.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -52,13 +52,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Files of a folder that its case may name: meshes of Gmsh, and the table of references.
+/// Endings of meshes of Gmsh and of surfaces of triangles.
+const NAMED: [&str; 4] = ["msh", "obj", "ply", "stl"];
+
+/// Files of a folder that its case may name: meshes, surfaces, and the table of references.
 fn named_files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        let is_mesh = path.extension().is_some_and(|extension| extension == "msh");
-        if is_mesh || path.ends_with("references.csv") {
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        if ending.is_some_and(|ending| NAMED.contains(&ending)) || path.ends_with("references.csv")
+        {
             files.push(path);
         }
     }
