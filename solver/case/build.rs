@@ -1,4 +1,4 @@
-//! Embeds `cases/*/case.toml`, references and meshes beside them in the program.
+//! Embeds `cases/*/case.toml`, references, meshes and surfaces beside them in the program.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -58,14 +58,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Files of a folder that its case may name: meshes of Gmsh, a recorded motion, and the table of references.
+/// Endings of meshes of Gmsh and of surfaces of triangles.
+const NAMED: [&str; 4] = ["msh", "obj", "ply", "stl"];
+
+/// Tables that a case may name: a recorded motion and the references.
+const TABLES: [&str; 2] = ["record.csv", "references.csv"];
+
+/// Files of a folder that its case may name: meshes, surfaces and tables.
 fn named_files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        let is_mesh = path.extension().is_some_and(|extension| extension == "msh");
-        let is_record = path.file_name().is_some_and(|name| name == "record.csv");
-        if is_mesh || is_record || path.ends_with("references.csv") {
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        let name = path.file_name().and_then(|name| name.to_str());
+        if ending.is_some_and(|ending| NAMED.contains(&ending))
+            || name.is_some_and(|name| TABLES.contains(&name))
+        {
             files.push(path);
         }
     }

@@ -84,6 +84,13 @@ def _simple_shape(given: dict[str, Any], heavy: list[float] | None) -> Shape | N
             outline = smooth_outline(np.array(values["points"]))
             away = centroid(outline) if heavy is None else -origin[: outline.shape[1]]
             return Shape(0.0, [], [outline - away])
+        case "polygon" if "points" in values:
+            outline = np.array(values["points"])
+            away = centroid(outline) if heavy is None else -origin[: outline.shape[1]]
+            return Shape(0.0, [], [outline - away])
+        case "box":
+            corners_of_box = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
+            return Shape(0.0, [], [0.5 * corners_of_box * values["size"] + origin[:2]])
         case _:
             return None
     turn = np.array([0.0, 0.0, 0.0, 1.0])

@@ -226,9 +226,16 @@ fn shape_in_words(shape: &ShapeSpec) -> String {
             curve.points.len()
         ),
         ShapeSpec::Revolved { profile } => format!("turned profile of {} points", profile.len()),
+        ShapeSpec::Surface(surface) => {
+            format!("surface of {} triangles", surface.n_triangles())
+        }
         ShapeSpec::Union(parts) => {
             let names: Vec<&str> = parts.iter().map(|part| part.shape.name()).collect();
             format!("union of {}", names.join(" and "))
+        }
+        ShapeSpec::Polygon(polygon) => format!("polygon of {} corners", polygon.points.len()),
+        ShapeSpec::Box { size: [width, height] } => {
+            format!("box of {} by {}", significant(*width), significant(*height))
         }
         ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
         ShapeSpec::Fish(fish) => format!("fish of length {}", significant(fish.length)),

@@ -17,6 +17,7 @@ mod run;
 mod soft;
 mod status;
 mod style;
+mod surface;
 mod sweep;
 mod validate;
 mod verify;
@@ -121,6 +122,8 @@ enum Command {
     Plot(plot::Options),
     /// Show how far a run is
     Status(status::Options),
+    /// Report what a file of triangles encloses and whether it can be a body, and repair it
+    Surface(surface::Options),
     /// Check that what runs and sweeps have left is whole and agrees; nothing is run
     Verify(verify::Options),
     /// Run a case at many points: with several values of some of its keys
@@ -199,6 +202,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         Command::Loop(options) => soft::rounds(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),
+        Command::Surface(options) => surface::surface(&options),
         Command::Verify(options) => verify::verify(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::Validate(options) => validate::validate(&options),

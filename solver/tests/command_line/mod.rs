@@ -12,6 +12,7 @@ mod plotting;
 mod shell;
 mod skin;
 mod stopping;
+mod surfaces;
 mod sweeps;
 mod validating;
 mod verifying;

@@ -8,6 +8,7 @@
 
 pub(crate) mod case_text;
 pub mod library;
+mod outline_file;
 pub(crate) mod problem_keys;
 pub(crate) mod read_mesh;
 pub(crate) mod recording;
@@ -15,6 +16,7 @@ mod reference_rows;
 mod reference_table;
 pub(crate) mod schema;
 mod stroke_file;
+mod surface_file;
 mod typing;
 mod variants;
 
@@ -232,9 +234,11 @@ impl UntypedCase {
         if let Some(sweep) = &self.sweep {
             spec::read(sweep).map_err(wrong)?;
         }
+        outline_file::resolve(&mut self.root).map_err(wrong)?;
         stroke_file::resolve(&mut self.root).map_err(wrong)?;
         let mut case = typed(&self.root)?;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;
+        surface_file::read_into(&mut case, &self.root).map_err(wrong)?;
         complete_periodic(&mut case);
         complete_cylinders(&mut case);
         let model = Model::new(case).map_err(|error| located(&self.root, error))?;

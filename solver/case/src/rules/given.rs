@@ -105,7 +105,7 @@ fn met(error: &MeshError) -> String {
 /// Whether all places of a body are known beforehand.
 fn is_known(model: &Model, body: &Body) -> bool {
     // Of other shapes the centre of mass, about which they turn, is not where the centre is
-    let is_ellipse = matches!(body.shape, ShapeSpec::Ellipse { .. });
+    let is_ellipse = matches!(body.shape, ShapeSpec::Ellipse { .. } | ShapeSpec::Box { .. });
     let is_centred = body.center_of_mass.iter().all(|part| *part == 0.0);
     let turns_about_center = is_ellipse && is_centred && model.case.geometry == Geometry::Planar;
     match &body.motion {

@@ -58,6 +58,7 @@ fn rigid(body: &Body, report: &BodyReport) -> Primitives {
         | ShapeSpec::Helix(_)
         | ShapeSpec::Curve(_)
         | ShapeSpec::Revolved { .. }
+        | ShapeSpec::Surface(_)
         | ShapeSpec::Union(_) => {
             // The frame is at the centre of mass, the origin of the shape is not
             let from = report.pose.rotation().inverse();
@@ -72,6 +73,8 @@ fn rigid(body: &Body, report: &BodyReport) -> Primitives {
             }
         }
         ShapeSpec::Spline { .. }
+        | ShapeSpec::Polygon(_)
+        | ShapeSpec::Box { .. }
         | ShapeSpec::Fish(_)
         | ShapeSpec::Flagellate(_)
         | ShapeSpec::Tube(_) => {
@@ -104,6 +107,11 @@ fn centroid(shape: &ShapeSpec) -> Vector3<f64> {
 /// Points on the curved outline of a body, about its centre of mass (m).
 fn outline(shape: &ShapeSpec) -> Vec<Vector3<f64>> {
     let shape = shape.outline();
+    if let (Shape::Polygon { points }, Some(moments)) = (&shape, shape.moments()) {
+        let about =
+            |[x, y]: &[f64; 2]| Vector3::new(x - moments.centroid.x, y - moments.centroid.y, 0.0);
+        return points.iter().map(about).collect();
+    }
     let spline = match &shape {
         Shape::Spline { points } => Spline::through(points),
         Shape::Curve { spline } => Some(Spline::clone(spline)),

@@ -4,9 +4,10 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 
 use super::motion::{by_axis, initial, mass};
-use super::{gait, rod, solid, spring};
+use super::{gait, polygon, rod, solid, spring, surface};
 use crate::rules::Findings;
 use crate::rules::flow::boundary::check_factor;
+use crate::spec::body::given::polygon::signed_area;
 use crate::text::names::{LONGEST_NAME, is_word};
 use crate::text::type_error::suggestion;
 use crate::{Body, GaitSpec, Geometry, Lock, Motion, Probe, ShapeSpec};
@@ -152,6 +153,8 @@ pub(crate) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
         ShapeSpec::Union(parts) => {
             solid::check_parts(findings, &format!("{key}.union"), parts, check_shape);
         }
+        ShapeSpec::Surface(shape) => surface::check(findings, &format!("{key}.surface"), shape),
+        ShapeSpec::Polygon(shape) => polygon::check(findings, &format!("{key}.polygon"), shape),
         ShapeSpec::Spline { points } if points.len() > 2 && signed_area(points) <= 0.0 => {
             findings.error(
                 &format!("{key}.spline.points"),
@@ -179,18 +182,6 @@ fn check_density(findings: &mut Findings<'_>, key: &str, body: &Body) {
             "densities are those of the fluid, in the same units; 0.0 is a massless body",
         );
     }
-}
-
-/// Area of a polygon (m2), positive if its corners run counter-clockwise.
-fn signed_area(points: &[[f64; 2]]) -> f64 {
-    let n = points.len();
-    let twice: f64 = (0..n)
-        .map(|i| {
-            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % n]);
-            ax * by - bx * ay
-        })
-        .sum();
-    0.5 * twice
 }
 
 fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {

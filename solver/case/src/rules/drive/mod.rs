@@ -156,9 +156,12 @@ fn rod_drives(body: &Body) -> bool {
 fn spring_drives(body: &Body) -> bool {
     let Some(spring) = &body.spring else { return false };
     // Of other shapes the centre of mass, which the anchor is compared with, may be elsewhere
-    let is_centred = !any(&body.center_of_mass)
-        && (body.shape.semi_axes().is_some()
-            || matches!(body.shape, ShapeSpec::Disc { .. } | ShapeSpec::Ellipse { .. }));
+    let is_symmetric = matches!(
+        body.shape,
+        ShapeSpec::Disc { .. } | ShapeSpec::Ellipse { .. } | ShapeSpec::Box { .. }
+    );
+    let is_centred =
+        !any(&body.center_of_mass) && (body.shape.semi_axes().is_some() || is_symmetric);
     let is_stretched = |(axis, anchor): (usize, &f64)| {
         let center = body.center.get(axis).copied().unwrap_or(0.0);
         let is_stiff = spring.stiffness.get(axis).is_some_and(|stiffness| *stiffness != 0.0);

@@ -3,6 +3,7 @@
 pub(crate) mod axial_vector;
 pub(crate) mod command;
 pub(crate) mod gait;
+pub(crate) mod given;
 pub(crate) mod joint;
 pub(crate) mod link;
 pub(crate) mod motion;
@@ -24,6 +25,8 @@ use self::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
 };
+use self::given::polygon::PolygonShape;
+use self::given::surface::SurfaceShape;
 use self::motion::by_axis::Driven;
 use self::motion::inertia::InertiaSpec;
 use self::motion::{LoadFrame, Lock, Motion};
@@ -60,6 +63,16 @@ pub enum ShapeSpec {
         /// Points counter-clockwise in the body frame (m), the first not repeated.
         #[cfg_attr(test, schemars(length(min = 3)))]
         points: Vec<[f64; 2]>,
+    },
+    /// Polygon with sharp corners (planar).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    Polygon(PolygonShape),
+    /// Rectangle with sharp corners (planar).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    Box {
+        /// Lengths along the body's x and y (m).
+        #[cfg_attr(test, schemars(with = "[Positive; 2]"))]
+        size: [f64; 2],
     },
     /// Fish (planar, spatial).
     #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
@@ -126,6 +139,9 @@ pub enum ShapeSpec {
         #[cfg_attr(test, schemars(length(min = 3)))]
         profile: Vec<[f64; 2]>,
     },
+    /// Solid by the triangles of its surface (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
+    Surface(SurfaceShape),
     /// All points of several parts, such as a head and a flagellum (spatial).
     #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Union(#[cfg_attr(test, schemars(length(min = 1)))] Vec<PartSpec>),
