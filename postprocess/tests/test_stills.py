@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import meshes
 import numpy as np
 import pytest
 from conftest import CAN_RENDER, block, ring
@@ -120,3 +121,12 @@ def test_limits_say_what_they_leave_out() -> None:
     said = style.beyond("pressure", (low, high), (-1.0, 500.0), style.ON_BODIES)
     assert said == "limits leave out 2 % of the area at each end, up to -1, 500"
     assert style.beyond("speed", (0.0, 1.0), (0.0, 1.0)) == style.ALL
+
+
+def test_a_peak_of_the_pressure_is_kept() -> None:
+    nodes, cells = meshes.box(10, 0.0, 1.0)
+    away = ((nodes - 0.5) ** 2).sum(axis=1)
+    peak = np.exp(-20.0 * away)
+    own = flow(nodes, cells, 0.0 * nodes, peak)
+    middle = int(np.argmin(away))
+    assert recovered.smooth_pressure(own).pressure[middle] > 0.85 * peak[middle]

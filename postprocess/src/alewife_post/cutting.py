@@ -31,7 +31,7 @@ TRIANGLE = np.array(
         [_B, _B, 1 - 2 * _B, _Q], [_B, 1 - 2 * _B, _B, _Q], [1 - 2 * _B, _B, _B, _Q],
     ]
 )  # fmt: skip
-"""Distances from the sides of a triangle, and weights, exact up to degree four (Dunavant 1985)."""
+"""Distances from the sides of a triangle, and weights, exact up to degree four (@dunavant1985)."""
 
 
 @dataclass(frozen=True)
