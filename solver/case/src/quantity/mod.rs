@@ -80,9 +80,9 @@ pub fn columns(model: &Model) -> Vec<Column> {
         add(&mut columns, &probe.name, ProbeQuantity::TABLE, &of_case, source);
     }
     add(&mut columns, "flow", FlowQuantity::TABLE, &of_case, Source::Flow);
-    for (nth, side) in reported_sides(model) {
-        let source = |quantity| Source::Side(nth, quantity);
-        add(&mut columns, side, SideQuantity::TABLE, &of_case, source);
+    for side in reported_sides(model) {
+        let source = |quantity| Source::Side(side.number, quantity);
+        add(&mut columns, side.name, SideQuantity::TABLE, &of_case, source);
     }
     columns
 }

@@ -2,12 +2,21 @@
 
 use crate::{BoundaryCondition, DomainSpec, Model};
 
+/// A side with quantities.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ReportedSide<'a> {
+    /// Its number among the sides of the case.
+    pub number: usize,
+    /// Its name.
+    pub name: &'a str,
+}
+
 /// Sides with quantities, each with its number in [`Case::sides`](crate::Case::sides).
 ///
 /// All of them where `output.sides` says so, or by itself where there are no bodies or the domain is a given mesh; of
 /// other cases those that a reference names. The axis and periodic sides have none, nor has a side whose name is
 /// that of a body.
-pub fn reported_sides(model: &Model) -> Vec<(usize, &str)> {
+pub fn reported_sides(model: &Model) -> Vec<ReportedSide<'_>> {
     let case = &model.case;
     let by_default = model.bodies.is_empty() || matches!(case.domain, DomainSpec::Mesh(_));
     let are_all = case.output.sides.unwrap_or(by_default);
@@ -31,7 +40,8 @@ pub fn reported_sides(model: &Model) -> Vec<(usize, &str)> {
             && (are_all || is_named(side))
     };
     let sides = case.sides().into_iter().enumerate();
-    sides.filter(|(_, side)| is_reported(side)).collect()
+    let sides = sides.map(|(number, name)| ReportedSide { number, name });
+    sides.filter(|side| is_reported(side.name)).collect()
 }
 
 /// Whether another side is periodic with this one, which may say nothing then.

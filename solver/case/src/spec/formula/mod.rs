@@ -1,15 +1,17 @@
 //! `Formula`: a number, or an expression of x, y, z, t and the numbers of `[define]`.
 
 mod function;
+mod node;
 mod parse;
 
-use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::de::{self, Deserializer, Visitor};
 use serde::{Deserialize, Serialize};
 
 use self::function::Function;
+use self::node::Node;
+pub use self::node::{Definitions, Place};
 pub use self::parse::FormulaError;
 
 /// A number, or an expression as it is written.
@@ -23,46 +25,10 @@ pub enum Formula {
     Expression(String),
 }
 
-/// The numbers of `[define]`, by their names.
-pub type Definitions = BTreeMap<String, f64>;
-
-/// Where and when an expression is evaluated: x, y, z (m) and t (s).
-pub type Place = [f64; 4];
-
 /// A formula whose names are known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParsedFormula {
     root: Node,
-}
-
-/// A part of an expression.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Node {
-    Number(f64),
-    /// x, y, z or t by its number.
-    Variable(usize),
-    Call(Function, Vec<Node>),
-}
-
-impl Node {
-    fn at(&self, place: &Place) -> f64 {
-        match self {
-            Self::Number(value) => *value,
-            Self::Variable(which) => place[*which],
-            Self::Call(function, parts) => {
-                let value = |nth: usize| parts.get(nth).map_or(f64::NAN, |part| part.at(place));
-                function.value(value)
-            }
-        }
-    }
-
-    fn has(&self, variables: &[usize]) -> bool {
-        match self {
-            Self::Number(_) => false,
-            Self::Variable(which) => variables.contains(which),
-            Self::Call(_, parts) => parts.iter().any(|part| part.has(variables)),
-        }
-    }
 }
 
 impl ParsedFormula {

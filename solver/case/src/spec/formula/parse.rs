@@ -5,7 +5,7 @@
 use std::fmt;
 
 use super::function::{Function, NAMED};
-use super::{Definitions, Node};
+use super::node::{Definitions, Node};
 use crate::text::nearest::nearest;
 
 /// What expressions depend on.
@@ -36,6 +36,29 @@ impl fmt::Display for FormulaError {
 
 impl std::error::Error for FormulaError {}
 
+/// A token, and the character at which it begins, from 1.
+#[derive(Debug, Clone, PartialEq)]
+struct Placed {
+    token: Token,
+    column: usize,
+}
+
+/// A token at the beginning of a text, and its characters.
+struct Leading {
+    token: Token,
+    length: usize,
+}
+
+/// An operator of a level of precedence.
+struct Operator {
+    sign: &'static str,
+    function: Function,
+}
+
+const fn operator(sign: &'static str, function: Function) -> Operator {
+    Operator { sign, function }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 enum Token {
     Number(f64),
@@ -58,7 +81,7 @@ impl fmt::Display for Token {
 /// Signs, longer ones first.
 const SIGNS: [&str; 12] = ["<=", ">=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
-fn tokens(text: &str) -> Result<Vec<(Token, usize)>, FormulaError> {
+fn tokens(text: &str) -> Result<Vec<Placed>, FormulaError> {
     let characters: Vec<char> = text.chars().collect();
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -68,13 +91,13 @@ fn tokens(text: &str) -> Result<Vec<(Token, usize)>, FormulaError> {
             continue;
         }
         let rest = &characters[at..];
-        let (token, length) = if first.is_ascii_digit() || first == '.' {
+        let Leading { token, length } = if first.is_ascii_digit() || first == '.' {
             number(rest, at)?
         } else if first.is_ascii_alphabetic() || first == '_' {
             let is_in = |c: &&char| c.is_ascii_alphanumeric() || **c == '_';
             let name: String = rest.iter().take_while(is_in).collect();
             let length = name.len();
-            (Token::Name(name), length)
+            Leading { token: Token::Name(name), length }
         } else {
             let begins =
                 |sign: &&str| sign.chars().zip(rest).filter(|(a, b)| a == *b).count() == sign.len();
@@ -83,17 +106,17 @@ fn tokens(text: &str) -> Result<Vec<(Token, usize)>, FormulaError> {
                 let accepted = "accepted: numbers, names, + - * / ^ < > <= >= ( ) ,".to_owned();
                 FormulaError { column: at + 1, found, accepted }
             })?;
-            (Token::Sign(sign), sign.len())
+            Leading { token: Token::Sign(sign), length: sign.len() }
         };
-        tokens.push((token, at + 1));
+        tokens.push(Placed { token, column: at + 1 });
         at += length;
     }
-    tokens.push((Token::End, characters.len() + 1));
+    tokens.push(Placed { token: Token::End, column: characters.len() + 1 });
     Ok(tokens)
 }
 
 /// The number that a text begins with, and its length.
-fn number(rest: &[char], at: usize) -> Result<(Token, usize), FormulaError> {
+fn number(rest: &[char], at: usize) -> Result<Leading, FormulaError> {
     let mut length = 0;
     while let Some(&c) = rest.get(length) {
         let before = length.checked_sub(1).map(|before| rest[before]);
@@ -108,7 +131,7 @@ fn number(rest: &[char], at: usize) -> Result<(Token, usize), FormulaError> {
     }
     let text: String = rest[..length].iter().collect();
     match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok((Token::Number(value), length)),
+        Ok(value) if value.is_finite() => Ok(Leading { token: Token::Number(value), length }),
         _ => Err(FormulaError {
             column: at + 1,
             found: format!("`{text}` is no number"),
@@ -129,8 +152,10 @@ pub fn parse(
     let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, definitions, dimensions };
     let root = parser.comparison()?;
     match parser.next() {
-        (Token::End, _) => Ok(root),
-        (token, column) => Err(refuse(column, token.to_string(), "an operator is expected here")),
+        Placed { token: Token::End, .. } => Ok(root),
+        Placed { token, column } => {
+            Err(refuse(column, token.to_string(), "an operator is expected here"))
+        }
     }
 }
 
@@ -139,7 +164,7 @@ fn refuse(column: usize, found: String, accepted: &str) -> FormulaError {
 }
 
 struct Parser<'a> {
-    tokens: Vec<(Token, usize)>,
+    tokens: Vec<Placed>,
     at: usize,
     depth: usize,
     definitions: &'a Definitions,
@@ -148,11 +173,11 @@ struct Parser<'a> {
 
 impl Parser<'_> {
     fn peek(&self) -> &Token {
-        self.tokens.get(self.at).map_or(&Token::End, |(token, _)| token)
+        self.tokens.get(self.at).map_or(&Token::End, |next| &next.token)
     }
 
     /// The next token, with its column; the end again and again.
-    fn next(&mut self) -> (Token, usize) {
+    fn next(&mut self) -> Placed {
         let last = self.tokens.len() - 1;
         let token = self.tokens[self.at.min(last)].clone();
         self.at += 1;
@@ -167,17 +192,17 @@ impl Parser<'_> {
     }
 
     /// One of these operators, if it is the next token.
-    fn operator(&mut self, known: &[(&str, Function)]) -> Option<Function> {
-        known.iter().find(|(sign, _)| self.takes(sign)).map(|(_, function)| *function)
+    fn operator(&mut self, known: &[Operator]) -> Option<Function> {
+        known.iter().find(|one| self.takes(one.sign)).map(|one| one.function)
     }
 
     fn comparison(&mut self) -> Result<Node, FormulaError> {
         let left = self.sum()?;
         let known = [
-            ("<=", Function::AtMost),
-            (">=", Function::AtLeast),
-            ("<", Function::Below),
-            (">", Function::Above),
+            operator("<=", Function::AtMost),
+            operator(">=", Function::AtLeast),
+            operator("<", Function::Below),
+            operator(">", Function::Above),
         ];
         let Some(function) = self.operator(&known) else { return Ok(left) };
         Ok(Node::Call(function, vec![left, self.sum()?]))
@@ -185,7 +210,9 @@ impl Parser<'_> {
 
     fn sum(&mut self) -> Result<Node, FormulaError> {
         let mut left = self.product()?;
-        while let Some(function) = self.operator(&[("+", Function::Plus), ("-", Function::Minus)]) {
+        while let Some(function) =
+            self.operator(&[operator("+", Function::Plus), operator("-", Function::Minus)])
+        {
             left = Node::Call(function, vec![left, self.product()?]);
         }
         Ok(left)
@@ -193,7 +220,9 @@ impl Parser<'_> {
 
     fn product(&mut self) -> Result<Node, FormulaError> {
         let mut left = self.signed()?;
-        while let Some(function) = self.operator(&[("*", Function::Times), ("/", Function::Over)]) {
+        while let Some(function) =
+            self.operator(&[operator("*", Function::Times), operator("/", Function::Over)])
+        {
             left = Node::Call(function, vec![left, self.signed()?]);
         }
         Ok(left)
@@ -225,20 +254,20 @@ impl Parser<'_> {
         if self.depth <= DEEPEST {
             return Ok(());
         }
-        let column = self.tokens.get(self.at).map_or(1, |(_, column)| *column);
+        let column = self.tokens.get(self.at).map_or(1, |next| next.column);
         Err(refuse(column, format!("more than {DEEPEST} parts within parts"), "write less"))
     }
 
     fn operand(&mut self) -> Result<Node, FormulaError> {
         match self.next() {
-            (Token::Number(value), _) => Ok(Node::Number(value)),
-            (Token::Name(name), column) => self.named(&name, column),
-            (Token::Sign("("), _) => {
+            Placed { token: Token::Number(value), .. } => Ok(Node::Number(value)),
+            Placed { token: Token::Name(name), column } => self.named(&name, column),
+            Placed { token: Token::Sign("("), .. } => {
                 let inside = self.comparison()?;
                 self.close()?;
                 Ok(inside)
             }
-            (token, column) => {
+            Placed { token, column } => {
                 let accepted = "a number, a name or ( is expected here";
                 Err(refuse(column, token.to_string(), accepted))
             }
@@ -249,7 +278,7 @@ impl Parser<'_> {
         if self.takes(")") {
             return Ok(());
         }
-        let (token, column) = self.next();
+        let Placed { token, column } = self.next();
         Err(refuse(column, token.to_string(), "`)` or an operator is expected here"))
     }
 
@@ -287,7 +316,7 @@ impl Parser<'_> {
         function: Function,
     ) -> Result<Node, FormulaError> {
         if !self.takes("(") {
-            let (token, column) = self.next();
+            let Placed { token, column } = self.next();
             let accepted = format!("write {name}(...)");
             return Err(FormulaError { column, found: token.to_string(), accepted });
         }

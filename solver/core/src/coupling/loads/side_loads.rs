@@ -17,6 +17,13 @@ use crate::body::Wrench;
 /// Force of a side on the fluid by node (N).
 type NodalForces<const D: usize> = BTreeMap<NodeId, Point<D>>;
 
+/// What a side has of the force of all sides at a node on the fluid.
+struct Share<const D: usize> {
+    boundary: BoundaryId,
+    /// Force (N).
+    force: Point<D>,
+}
+
 /// Loads on each boundary that is a side at a time (s), the torque about the origin; none on bodies and periodic sides.
 #[must_use]
 pub fn side_loads<const D: usize>(
@@ -29,7 +36,7 @@ pub fn side_loads<const D: usize>(
     let tractions = tractions(problem, flow, stress, time);
     for at in flow.boundaries.nodes().filter(|at| at.body.is_none()) {
         let point = &flow.mesh.nodes[at.node];
-        for (boundary, force) in shares(problem, &tractions, &at, flow.force_at(at.node)) {
+        for Share { boundary, force } in shares(problem, &tractions, &at, flow.force_at(at.node)) {
             loads[boundary].force -= problem.metric.total_force(&force);
             loads[boundary].torque -= problem.metric.total_torque(point, &force);
         }
@@ -84,7 +91,7 @@ fn shares<const D: usize>(
     tractions: &[NodalForces<D>],
     at: &BoundaryNode,
     force: Point<D>,
-) -> Vec<(BoundaryId, Point<D>)> {
+) -> Vec<Share<D>> {
     let own = |boundary: BoundaryId| {
         tractions[boundary].get(&at.node).copied().unwrap_or_else(Point::<D>::zeros)
     };
@@ -92,18 +99,18 @@ fn shares<const D: usize>(
     let (open, closed): (Vec<BoundaryId>, Vec<BoundaryId>) =
         sides().partition(|&side| is_open(problem, side));
     // The residual has no traction of open sides
-    let mut shares: Vec<_> = open.iter().map(|&boundary| (boundary, own(boundary))).collect();
+    let share = |&boundary: &BoundaryId| Share { boundary, force: own(boundary) };
+    let mut shares: Vec<Share<D>> = open.iter().map(share).collect();
     let takers = if closed.is_empty() { &open } else { &closed };
     if let [only] = takers[..] {
-        let before = shares.iter_mut().find(|(boundary, _)| *boundary == only);
-        match before {
-            Some((_, share)) => *share += force,
-            None => shares.push((only, force)),
+        match shares.iter_mut().find(|share| share.boundary == only) {
+            Some(share) => share.force += force,
+            None => shares.push(Share { boundary: only, force }),
         }
         return shares;
     }
     let first = shares.len();
-    shares.extend(closed.iter().map(|&boundary| (boundary, own(boundary))));
+    shares.extend(closed.iter().map(share));
     let first = if closed.is_empty() { 0 } else { first };
     for axis in 0..D {
         divide(problem, &mut shares[first..], axis, force[axis], !closed.is_empty());
@@ -114,7 +121,7 @@ fn shares<const D: usize>(
 /// Gives sides their parts of a force along an axis (N), those without a traction along it none.
 fn divide<const D: usize>(
     problem: &Problem<D>,
-    shares: &mut [(BoundaryId, Point<D>)],
+    shares: &mut [Share<D>],
     axis: usize,
     force: f64,
     has_tractions: bool,
@@ -123,18 +130,18 @@ fn divide<const D: usize>(
         Some(Side::Symmetry { normal_axis }) => normal_axis == axis,
         _ => true,
     };
-    let any = shares.iter().any(|(boundary, _)| holds(*boundary));
+    let any = shares.iter().any(|share| holds(share.boundary));
     let takers: Vec<usize> =
-        (0..shares.len()).filter(|&nth| !any || holds(shares[nth].0)).collect();
+        (0..shares.len()).filter(|&nth| !any || holds(shares[nth].boundary)).collect();
     let mut rest = force;
-    for (nth, (_, share)) in shares.iter_mut().enumerate() {
+    for (nth, share) in shares.iter_mut().enumerate() {
         if has_tractions && takers.contains(&nth) {
-            rest -= share[axis];
+            rest -= share.force[axis];
         } else if has_tractions {
-            share[axis] = 0.0;
+            share.force[axis] = 0.0;
         }
     }
     for &nth in &takers {
-        shares[nth].1[axis] += rest / takers.len() as f64;
+        shares[nth].force[axis] += rest / takers.len() as f64;
     }
 }

@@ -54,7 +54,7 @@ pub fn developed<const D: usize>(
         let section = section.map_err(|what| refused(&what))?;
         Box::new(move |place| section.at(&in_space(place)))
     };
-    let (flux, peak) = integrals(mesh, boundary, metric, &section);
+    let Through { flux, peak } = integrals(mesh, boundary, metric, &section);
     let factor = match amount {
         Amount::Flux(wanted) => wanted / flux,
         Amount::Peak(wanted) => wanted / peak,
@@ -66,13 +66,21 @@ pub fn developed<const D: usize>(
     Ok(Box::new(move |place, _| velocity * section(place)))
 }
 
-/// Flux of a profile by its values at the nodes, and its largest value there.
+/// What a profile lets through a side.
+struct Through {
+    /// Its integral, by its values at the nodes.
+    flux: f64,
+    /// Its largest value at a node.
+    peak: f64,
+}
+
+/// What a profile lets through a side of a mesh.
 fn integrals<const D: usize>(
     mesh: &Mesh<D>,
     boundary: BoundaryId,
     metric: Metric,
     profile: &dyn Fn(&Point<D>) -> f64,
-) -> (f64, f64) {
+) -> Through {
     let (rule, mut flux, mut peak) = (FacetRule::new(metric), 0.0, 0.0_f64);
     for facet in mesh.facets.iter().filter(|facet| facet.boundary == boundary) {
         let nodes = mesh.cell(facet.cell);
@@ -85,7 +93,7 @@ fn integrals<const D: usize>(
             flux += value * at.normal_ds.norm();
         });
     }
-    (flux, peak)
+    Through { flux, peak }
 }
 
 /// Nodes of a side where the velocity is zero.

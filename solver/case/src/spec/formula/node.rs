@@ -1,0 +1,43 @@
+//! `Node`: a part of an expression, and what it is evaluated with.
+
+use std::collections::BTreeMap;
+
+use super::function::Function;
+
+/// The numbers of `[define]`, by their names.
+pub type Definitions = BTreeMap<String, f64>;
+
+/// Where and when an expression is evaluated: x, y, z (m) and t (s).
+pub type Place = [f64; 4];
+
+/// A part of an expression.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Node {
+    Number(f64),
+    /// x, y, z or t by its number.
+    Variable(usize),
+    Call(Function, Vec<Node>),
+}
+
+impl Node {
+    /// Its value at a place and a time.
+    pub fn at(&self, place: &Place) -> f64 {
+        match self {
+            Self::Number(value) => *value,
+            Self::Variable(which) => place[*which],
+            Self::Call(function, parts) => {
+                let value = |nth: usize| parts.get(nth).map_or(f64::NAN, |part| part.at(place));
+                function.value(value)
+            }
+        }
+    }
+
+    /// Whether it depends on one of these, by their numbers.
+    pub fn has(&self, variables: &[usize]) -> bool {
+        match self {
+            Self::Number(_) => false,
+            Self::Variable(which) => variables.contains(which),
+            Self::Call(_, parts) => parts.iter().any(|part| part.has(variables)),
+        }
+    }
+}
