@@ -4,6 +4,7 @@ mod architecture;
 mod convergence;
 mod coupling;
 mod documentation;
+mod gradient;
 mod linear_solver;
 mod motion;
 mod moving;

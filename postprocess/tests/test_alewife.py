@@ -138,6 +138,19 @@ def test_an_optimiser_finds_the_squirmer_that_spends_least() -> None:
     assert abs(golden_section(efficiency, -2.0, 3.0, 12)) < 0.1
 
 
+def test_a_gradient_leads_to_the_neutral_squirmer() -> None:
+    squirmer = alewife.load("squirmer-unbounded").set("mesh.scale", 2.0)
+    second = "body.0.gait.squirmer.modes.1"
+    power = squirmer.set(second, 2.0).gradient("squirmer.power", ["fluid.viscosity", second])
+    assert power.by["fluid.viscosity"] == pytest.approx(power.value, rel=1e-6)
+    # The power is quadratic in it: one step of Newton's method, from two slopes
+    slope = squirmer.set(second, 1.0).gradient("squirmer.power", second).by[second]
+    best = 1.0 - slope / (power.by[second] - slope)
+    assert abs(best) < 1e-4
+    with pytest.raises(alewife.BadCaseError, match=r"do you mean `squirmer\.power`"):
+        squirmer.gradient("squirmer.powr", ["fluid.viscosity"])
+
+
 def test_values_are_written_as_toml() -> None:
     value = {"a b": [1, 2.5, True, 'x"y'], "c": np.array([1e-9, 1.0]), "d": np.float64(3)}
     assert to_toml(value) == '{ "a b" = [1, 2.5, true, "x\\"y"], "c" = [1e-09, 1.0], "d" = 3.0 }'

@@ -1,4 +1,4 @@
-//! Embeds `cases/*/case.toml`, references and meshes beside them in the program.
+//! Embeds `cases/*/case.toml`, references, meshes and surfaces beside them in the program.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -22,7 +22,12 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut files =
         String::from("/// Files of shipped cases.\nstatic FILES: &[ShippedFile] = &[\n");
-    let mut table = String::from("/// Shipped cases, by name.\nstatic SHIPPED: &[Shipped] = &[\n");
+    let mut tables = [
+        String::from(
+            "/// Shipped cases of the full solver, by name.\nstatic SHIPPED: &[Shipped] = &[\n",
+        ),
+        String::from("/// Shipped soft cases, by name.\nstatic SOFT: &[Shipped] = &[\n"),
+    ];
     for folder in folders {
         let file = folder.join("case.toml");
         let Some(name) = folder.file_name().and_then(|name| name.to_str()) else { continue };
@@ -40,25 +45,35 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let path = format!("cases/{name}/case.toml");
         let text = file.canonicalize()?;
+        // A case of an elastic body without a flow says so by its table
+        let is_soft = fs::read_to_string(&text)?.lines().any(|line| line.trim_end() == "[soft]");
         writeln!(
-            table,
+            tables[usize::from(is_soft)],
             "    Shipped {{ name: {name:?}, file: {path:?}, text: include_str!({text:?}) }},"
         )?;
     }
-    table.push_str("];\n");
-    table.push_str(&files);
-    table.push_str("];\n");
-    fs::write(Path::new(&env::var("OUT_DIR")?).join("shipped_cases.rs"), table)?;
+    let [flow, soft] = tables;
+    let text = format!("{flow}];\n{soft}];\n{files}];\n");
+    fs::write(Path::new(&env::var("OUT_DIR")?).join("shipped_cases.rs"), text)?;
     Ok(())
 }
 
-/// Files of a folder that its case may name: meshes of Gmsh, and the table of references.
+/// Endings of meshes of Gmsh and of surfaces of triangles.
+const NAMED: [&str; 4] = ["msh", "obj", "ply", "stl"];
+
+/// Tables that a case may name: a recorded motion and the references.
+const TABLES: [&str; 2] = ["record.csv", "references.csv"];
+
+/// Files of a folder that its case may name: meshes, surfaces and tables.
 fn named_files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        let is_mesh = path.extension().is_some_and(|extension| extension == "msh");
-        if is_mesh || path.ends_with("references.csv") {
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        let name = path.file_name().and_then(|name| name.to_str());
+        if ending.is_some_and(|ending| NAMED.contains(&ending))
+            || name.is_some_and(|name| TABLES.contains(&name))
+        {
             files.push(path);
         }
     }

@@ -33,7 +33,7 @@ pub mod runner;
 pub mod sweep;
 pub mod validation;
 
-pub use alewife_core::{body, case, coupling, flow, run, state, step, timing};
+pub use alewife_core::{body, case, coupling, flow, gradient, run, state, step, timing};
 
 /// The program of a page, compiled and run.
 #[cfg(doctest)]

@@ -1,4 +1,4 @@
-//! Command line: `list`, `show`, `check`, `mesh`, `run`, `plot`, `status`, `sweep`, `verify`, `validate`.
+//! Command line: `list`, `show`, `check`, `mesh`, `run`, `gradient`, `plot`, `status`, `sweep`, `verify`, `validate`.
 
 use std::process::ExitCode;
 

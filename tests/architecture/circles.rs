@@ -6,13 +6,14 @@ use super::sources::{CRATES, sources, syntax};
 
 /// Rooms of the crate of cases, and those each may use. Reading a case types what it says of a sweep, whose
 /// cases are read in turn.
-const ROOMS_OF_CASES: [(&str, &[&str]); 7] = [
+const ROOMS_OF_CASES: [(&str, &[&str]); 8] = [
     ("text", &[]),
     ("spec", &["text"]),
     ("model", &["spec", "text"]),
     ("quantity", &["model", "spec"]),
     ("read", &["model", "spec", "sweep", "text"]),
     ("rules", &["model", "quantity", "read", "spec", "text"]),
+    ("soft", &["read", "spec", "text"]),
     ("sweep", &["model", "quantity", "read", "rules", "spec", "text"]),
 ];
 

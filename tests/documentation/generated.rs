@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::fs;
 
-use alewife_core::case::{Case, schema};
+use alewife_core::case::soft::{self, SoftFile};
+use alewife_core::case::{Case, library, schema};
 use serde_json::Value;
 
 use super::{case_names, root};
@@ -29,7 +30,11 @@ fn the_gallery_shows_every_case() {
          is compared with. `alewife show NAME`\ndescribes one, and \
          `alewife show NAME --source > my.toml` starts a file of your own from it.\n",
     );
+    let soft: Vec<&str> = library::soft().iter().map(|case| case.name).collect();
     for name in case_names() {
+        if soft.contains(&name.as_str()) {
+            continue;
+        }
         let path = root().join("cases").join(&name).display().to_string();
         let file = Case::read(&path, &[]).unwrap_or_else(|error| panic!("{name}\n{error}"));
         let case = file.case();
@@ -41,6 +46,17 @@ fn the_gallery_shows_every_case() {
         let title = &case.title;
         write!(page, "\n## {name}\n\n[{title}](../cases/{name}/README.md): ").unwrap();
         writeln!(page, "`alewife run {name}{variant}`").unwrap();
+        let picture = format!("pictures/{name}.png");
+        if root().join("docs").join(&picture).is_file() {
+            writeln!(page, "\n![picture]({picture})").unwrap();
+        }
+    }
+    for entry in library::soft() {
+        let name = entry.name;
+        let file = SoftFile::read(name, &[]).unwrap_or_else(|error| panic!("{name}\n{error}"));
+        let title = &file.case.title;
+        write!(page, "\n## {name}\n\n[{title}](../cases/{name}/README.md): ").unwrap();
+        writeln!(page, "`alewife run {name} --fidelity soft`").unwrap();
         let picture = format!("pictures/{name}.png");
         if root().join("docs").join(&picture).is_file() {
             writeln!(page, "\n![picture]({picture})").unwrap();
@@ -182,4 +198,18 @@ fn the_page_of_keys_is_that_of_the_schema() {
         add_section(&mut page, name, value);
     }
     up_to_date("docs/keys.md", &page);
+}
+
+#[test]
+fn the_page_of_keys_of_soft_cases_is_that_of_their_schema() {
+    let schema: Value = serde_json::from_str(soft::schema()).unwrap();
+    let mut page = String::from(
+        "# All keys of soft cases\n\nEvery key of a soft case, from its schema (`alewife schema --soft`). \
+         Explanations and examples are in\n[soft cases](soft.md).\n",
+    );
+    add_section(&mut page, "Top", &schema);
+    for (name, value) in schema["$defs"].as_object().unwrap() {
+        add_section(&mut page, name, value);
+    }
+    up_to_date("docs/soft-keys.md", &page);
 }

@@ -2,8 +2,12 @@
 //! side of the domain that waves.
 
 mod ale;
+mod ballast;
 mod bodies;
 mod contact;
+mod driven;
+mod grounded;
+mod launched;
 mod rebound;
 mod remesh;
 mod renumbered;

@@ -21,7 +21,7 @@ pub use closest::{
 };
 pub use domain::Domain;
 pub use gap_query::GapQuery;
-pub use generate::{generate, generate_wrapped};
+pub use generate::{Triangles, generate, generate_wrapped, points_of_outline, triangulate_inside};
 pub use outline::{Nearest, Outline};
 pub use placement::{SMALLEST_GAP, check_placement, check_wrapped_placement};
 pub use profile::{FishForm, FlagellateForm, Profile, Station, TubeForm};

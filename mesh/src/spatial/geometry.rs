@@ -248,6 +248,7 @@ pub fn surfaces_of(body: &Body) -> Result<Vec<SmoothSurface>, MeshError> {
                 Form::Revolved(Arc::new(Revolved::new(&body.name, profile)?))
             }
             Shape::Slender(slender) => Form::Slender(Arc::clone(slender)),
+            Shape::Triangulated(triangles) => Form::Triangulated(Arc::clone(triangles)),
             Shape::Tube { centreline, radius } => {
                 Form::Tube(Arc::new(Tube::new(centreline.clone(), *radius)))
             }

@@ -20,6 +20,7 @@ mod sections;
 mod shape;
 mod size_field;
 mod surface;
+mod triangles;
 
 pub use body_surface::{BodySurface, MaterialPoint};
 pub use closest::{ClosestPoints, WallSurface};
@@ -35,4 +36,7 @@ pub use sections::{
 };
 pub use shape::{Body, Part, Shape};
 pub use size_field::SizeField;
-pub use surface::Slender;
+pub use surface::{Slender, Triangulated};
+pub use triangles::{
+    Repaired, Repairs, SurfaceFault, SurfaceMeasures, SurfaceMoments, TriangleMesh,
+};

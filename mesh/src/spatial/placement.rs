@@ -255,7 +255,7 @@ fn lengths(shape: &Shape) -> Vec<Length> {
         Shape::Ellipsoid { semi_axes } => semi_axes.map(|axis| ("semi_axes", axis)).to_vec(),
         Shape::Capsule { radius, length } => vec![("radius", *radius), ("length", *length)],
         // Checked where its surface is made
-        Shape::Revolved { .. } | Shape::Slender(_) => Vec::new(),
+        Shape::Revolved { .. } | Shape::Slender(_) | Shape::Triangulated(_) => Vec::new(),
         Shape::Tube { centreline, radius } => {
             let mut all = vec![("radius", *radius)];
             if let Centreline::Helix { radius, pitch, turns } = centreline {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::Isometry3;
 
 use super::curve::Centreline;
-use super::surface::Slender;
+use super::surface::{Slender, Triangulated};
 
 /// A solid in its own frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +49,8 @@ pub enum Shape {
     },
     /// Elliptic sections about a midline in the plane z = 0: a fish, a flagellate, at rest or bent.
     Slender(Arc<Slender>),
+    /// A closed surface of triangles.
+    Triangulated(Arc<Triangulated>),
 }
 
 /// A solid that a body is made of.

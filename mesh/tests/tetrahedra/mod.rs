@@ -3,6 +3,7 @@
 mod cylinder;
 mod periodic;
 mod random;
+mod surfaces;
 mod tail;
 
 use std::f64::consts::PI;

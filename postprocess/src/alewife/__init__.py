@@ -7,7 +7,7 @@
 1.0
 """
 
-from alewife.case import Case, load
+from alewife.case import Case, Gradient, load
 from alewife.program import (
     AlewifeError,
     AlewifeWarning,
@@ -26,6 +26,7 @@ __all__ = [
     "BadCaseError",
     "Case",
     "CaseRun",
+    "Gradient",
     "Session",
     "SolverError",
     "State",

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import tempfile
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,6 +17,14 @@ from alewife.run import CaseRun, open_case_run
 
 #: What a key of a case may be set to.
 Value = bool | int | float | str | Sequence[Any] | Mapping[str, Any]
+
+
+class Gradient(NamedTuple):
+    """A quantity of a steady flow, and what it changes by with numbers of the case."""
+
+    value: float
+    #: Its derivative by the number of each key.
+    by: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -45,6 +54,18 @@ class Case:
     def check(self) -> str:
         """Read and mesh the case and return what there is to say of it; BadCaseError if wrong."""
         return call("check", *self.arguments())
+
+    def gradient(self, of: str, by: Sequence[str]) -> Gradient:
+        """Return a load, power or velocity of the steady flow, and its derivatives by some numbers.
+
+        `of` is its column, such as `ball.force.x`, and `by` are keys of numbers that are written
+        in the case. They cost little more than the flow, however many there are.
+        """
+        keys = ",".join([by] if isinstance(by, str) else by)
+        found = json.loads(call("gradient", *self.arguments(), "--json", "--of", of, "--by", keys))
+        quantity = found["quantities"][0]
+        by_key = {entry["key"]: entry["derivative"] for entry in quantity["by"]}
+        return Gradient(quantity["value"], by_key)
 
     def run(
         self,

@@ -65,12 +65,14 @@ def shape(run: Run, name: str, time: float) -> Shape | None:
         return before[-1] if before else found[0]
     for body in run.case.get("body", []):
         if body["name"] == name and "shape" in body:
-            return _simple_shape(body["shape"])
+            return _simple_shape(body["shape"], body.get("center_of_mass"))
     return None
 
 
-def _simple_shape(given: dict[str, Any]) -> Shape | None:
+def _simple_shape(given: dict[str, Any], heavy: list[float] | None) -> Shape | None:
     ((kind, values),) = given.items()
+    # The pose is that of the centre of mass, which may be apart from that of the shape
+    origin = -np.array([*(heavy or []), 0.0, 0.0, 0.0])[:3]
     match kind:
         case "disc" | "sphere":
             size = np.full(3, 2 * values["radius"])
@@ -80,11 +82,19 @@ def _simple_shape(given: dict[str, Any]) -> Shape | None:
         case "spline":
             # The pose is that of the centre of mass, the points have an origin of their own.
             outline = smooth_outline(np.array(values["points"]))
-            return Shape(0.0, [], [outline - centroid(outline)])
+            away = centroid(outline) if heavy is None else -origin[: outline.shape[1]]
+            return Shape(0.0, [], [outline - away])
+        case "polygon" if "points" in values:
+            outline = np.array(values["points"])
+            away = centroid(outline) if heavy is None else -origin[: outline.shape[1]]
+            return Shape(0.0, [], [outline - away])
+        case "box":
+            corners_of_box = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
+            return Shape(0.0, [], [0.5 * corners_of_box * values["size"] + origin[:2]])
         case _:
             return None
     turn = np.array([0.0, 0.0, 0.0, 1.0])
-    return Shape(0.0, [Solid("ellipsoid", np.zeros(3), turn, size, (1.0, 1.0))], [])
+    return Shape(0.0, [Solid("ellipsoid", origin, turn, size, (1.0, 1.0))], [])
 
 
 def corners(run: Run, name: str, pose: Pose) -> tuple[Array, Array]:

@@ -4,6 +4,7 @@ mod model;
 mod quantity;
 mod read;
 mod rules;
+pub mod soft;
 mod spec;
 mod sweep;
 mod text;
@@ -32,16 +33,18 @@ pub use spec::body::gait::{
 };
 pub use spec::body::joint::{Ball, Hinge, Joint, JointKind, Slider};
 pub use spec::body::link::{Link, ShapedLink};
+pub use spec::body::motion::by_axis::{
+    AxisMotion, Driven, DrivenLaw, GivenRate, MotionsByAxis, TurningMotion,
+};
+pub use spec::body::motion::inertia::InertiaSpec;
+pub use spec::body::motion::{ImposedMotion, LoadFrame, Lock, Motion};
 pub use spec::body::orientation::Orientation;
 pub use spec::body::rod::{Activation, AlongBody, Attached, Hold, RestShape, RodSpec};
 pub use spec::body::spring::SpringSpec;
 pub use spec::body::squirmer::SquirmerGait;
 pub use spec::body::stroke::{Stroke, smooth_ramp};
 pub use spec::body::swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
-pub use spec::body::{
-    Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, LoadFrame, Lock, Motion,
-    PartSpec, ShapeSpec,
-};
+pub use spec::body::{Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, PartSpec, ShapeSpec};
 pub use spec::case::Case;
 pub use spec::comparison::reference::{
     Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant,

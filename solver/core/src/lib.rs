@@ -5,6 +5,7 @@ pub mod body;
 pub mod contact;
 pub mod coupling;
 pub mod gait;
+pub mod gradient;
 pub mod motion;
 pub mod run;
 pub mod state;

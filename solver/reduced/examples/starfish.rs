@@ -1,19 +1,18 @@
 //! Identifies a soft starfish from its recorded motion, as @du2021 did.
 //!
 //! ```sh
-//! cargo run --release -p alewife-reduced --example starfish -- RECORD.csv MESH.msh [substeps] [frames] [E] [nu]
+//! cargo run --release -p alewife-reduced --example starfish -- RECORD.csv MESH.msh [substeps] [frames] [E] [nu] [equal]
 //! ```
 //!
 //! The records are `python/example/soft_starfish_3d/data_*.csv` of github.com/mit-gfx/diff_pd_public, the surface to
-//! be meshed with tetrahedra (Gmsh's MSH 4.1, in metres) is `asset/mesh/starfish_half_simplified.obj` there.
+//! be meshed with tetrahedra (Gmsh's MSH 4.1, in metres) is `asset/mesh/starfish_half_simplified.obj` there. With
+//! the word `equal` all cells count with their mean volume and all nodes with the mass of one cell, as there.
 
 use std::error::Error;
 use std::time::Instant;
 
-use alewife_reduced::soft::{
-    Bounded, Curve, Evaluated, FacetLaw, Gaps, Markers, Plan, Record, Search, SoftBody, SoftError,
-    minimise,
-};
+use alewife_reduced::search::{Bounded, Evaluated, Search, minimise};
+use alewife_reduced::soft::{Curve, FacetLaw, Gaps, Markers, Plan, Record, SoftBody, SoftError};
 use alewife_solid::material::{Law, Material};
 use alewife_solid::solid::{Fibres, Frame, Order, Solid, SolidMesh, SolidSpec};
 use nalgebra::Vector3;
@@ -112,7 +111,7 @@ fn parameter(name: &str, start: f64, lower: f64, upper: f64) -> Bounded {
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [file, mesh, rest @ ..] = arguments.as_slice() else {
-        return Err("starfish RECORD.csv MESH.msh [substeps] [frames] [E] [nu]".into());
+        return Err("starfish RECORD.csv MESH.msh [substeps] [frames] [E] [nu] [equal]".into());
     };
     let substeps = rest.first().map_or(Ok(5), |text| text.parse())?;
     let n_frames = rest.get(1).map_or(Ok(60), |text| text.parse())?;
@@ -122,7 +121,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (plan, markers) = marks(&record, &mesh, substeps, n_frames)?;
     let young = rest.get(2).map_or(Ok(5.67e4), |text| text.parse())?;
     let poisson = rest.get(3).map_or(Ok(0.337), |text| text.parse())?;
-    let body = starfish(mesh, young, poisson)?;
+    let mut body = starfish(mesh, young, poisson)?;
+    if rest.get(4).is_some_and(|word| word == "equal") {
+        body.solid = body.solid.with_equal_cells();
+    }
     println!(
         "{} nodes, {} unknowns, {} fibres, step {:.5} s",
         body.solid.n_components() / 3,

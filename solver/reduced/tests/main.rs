@@ -1,5 +1,6 @@
-//! The soft tier: gradients against differences, searches, and a twin of a recorded swimmer; the reduced tier.
+//! The soft tier: gradients against differences, cases, searches, and a twin of a recorded swimmer; the reduced tier.
 
+mod cases;
 mod gradients;
 mod searches;
 mod swimmers;

@@ -1,6 +1,6 @@
 //! Searches: as good as the method they port, exact at bounds, taken up with the same bits, and clear when wrong.
 
-use alewife_reduced::soft::{Bounded, Ended, Evaluated, Search, SoftError, minimise};
+use alewife_reduced::search::{Bounded, Ended, Evaluated, Search, SearchError, minimise};
 
 fn parameters(n: usize, lower: f64, upper: f64, start: f64) -> Vec<Bounded> {
     let name = |k: usize| format!("x{k}");
@@ -30,7 +30,8 @@ fn the_search_is_as_good_as_that_of_scipy() {
     // SciPy 1.16's L-BFGS-B with the same tolerances: the optimum at the bound, and its evaluations
     for (upper, optimum, n_of_scipy) in [(0.6, 7.197_513_133_907_655, 27), (2.0, 0.0, 81)] {
         let parameters = parameters(10, -1.5, upper, -0.5);
-        let found = minimise(&parameters, &exact(), |x| Ok(rosenbrock(x))).expect("it starts");
+        let found =
+            minimise(&parameters, &exact(), |x| Ok::<_, String>(rosenbrock(x))).expect("it starts");
         println!("{upper}: {} evaluations, {:e}", found.all.len(), found.best.objective);
         assert_eq!(found.ended, Ended::Converged);
         assert!((found.best.objective - optimum).abs() < 1e-9 * (1.0 + optimum));
@@ -43,16 +44,18 @@ fn the_search_is_as_good_as_that_of_scipy() {
 #[test]
 fn a_search_that_was_stopped_goes_on_with_the_same_bits() {
     let parameters = parameters(4, -1.5, 2.0, -0.5);
-    let whole = minimise(&parameters, &exact(), |x| Ok(rosenbrock(x))).expect("it starts");
+    let whole =
+        minimise(&parameters, &exact(), |x| Ok::<_, String>(rosenbrock(x))).expect("it starts");
     let short = Search { max_evaluations: 9, ..exact() };
-    let first = minimise(&parameters, &short, |x| Ok(rosenbrock(x))).expect("it starts");
+    let first =
+        minimise(&parameters, &short, |x| Ok::<_, String>(rosenbrock(x))).expect("it starts");
     assert_eq!(first.ended, Ended::Evaluations);
     assert_eq!(first.all.len(), 9);
     let mut n_new = 0;
     let next = Search { known: first.all.clone(), ..exact() };
     let second = minimise(&parameters, &next, |x| {
         n_new += 1;
-        Ok(rosenbrock(x))
+        Ok::<_, String>(rosenbrock(x))
     })
     .expect("it starts");
     assert_eq!(second, whole);
@@ -65,14 +68,14 @@ fn a_search_that_fails_has_its_best_point_and_says_why() {
     let mut n = 0;
     let found = minimise(&parameters, &exact(), |x| {
         n += 1;
-        if n > 5 { Err(SoftError::Search("the body broke".to_owned())) } else { Ok(rosenbrock(x)) }
+        if n > 5 { Err("the body broke") } else { Ok(rosenbrock(x)) }
     })
     .expect("it starts");
-    assert_eq!(found.ended, Ended::Failed("the search failed: the body broke".to_owned()));
+    assert_eq!(found.ended, Ended::Failed("the body broke".to_owned()));
     let least = found.all.iter().map(|found| found.objective).fold(f64::MAX, f64::min);
     assert_eq!(found.best.objective, least);
-    let at_once = minimise(&parameters, &exact(), |_| Err(SoftError::Search("no".to_owned())));
-    assert_eq!(at_once, Err(SoftError::Search("no".to_owned())));
+    let at_once = minimise(&parameters, &exact(), |_| Err("no"));
+    assert_eq!(at_once, Err(SearchError::Start("no".to_owned())));
 }
 
 #[test]
@@ -90,7 +93,8 @@ fn bounds_that_do_not_fit_are_refused() {
         (Bounded { lower: 0.0, ..good.clone() }, "E: without a scale the logarithm is searched"),
         (Bounded { scale: Some(0.0), ..good.clone() }, "E: the scale 0 is not positive"),
     ] {
-        let said = minimise(&[wrong], &exact(), |x| Ok(rosenbrock(x))).expect_err("it is wrong");
+        let said = minimise(&[wrong], &exact(), |x| Ok::<_, String>(rosenbrock(x)))
+            .expect_err("it is wrong");
         assert!(said.to_string().starts_with(says), "{said}");
     }
 }

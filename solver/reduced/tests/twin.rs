@@ -1,10 +1,8 @@
 //! A twin of the recorded starfish: a body of its own shape, and records of a model with other numbers.
 
 use alewife_mesh::Point;
-use alewife_reduced::soft::{
-    Bounded, Ended, Evaluated, Found, Markers, Plan, Search, SoftBody, SoftError, Trajectory,
-    Travel, minimise,
-};
+use alewife_reduced::search::{Bounded, Ended, Evaluated, Found, Search, minimise};
+use alewife_reduced::soft::{Markers, Plan, SoftBody, SoftError, Trajectory, Travel};
 use alewife_solid::solid::{Fibres, Frame, Order, Scheme, Solid, SolidMesh, SolidSpec};
 use nalgebra::Vector3;
 

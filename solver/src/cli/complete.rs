@@ -71,7 +71,9 @@ pub fn case() -> ArgValueCompleter {
 fn shipped(typed: &str) -> Vec<CompletionCandidate> {
     let name = typed.split('/').next().unwrap_or(typed);
     let mut found = Vec::new();
-    for entry in library::list().iter().filter(|entry| entry.name.starts_with(name)) {
+    for entry in
+        library::list().iter().chain(library::soft()).filter(|entry| entry.name.starts_with(name))
+    {
         if entry.name.starts_with(typed) {
             // Much quicker than to read all of the case
             let table = entry.text.parse::<toml::Table>().unwrap_or_default();

@@ -43,6 +43,9 @@ pub fn facts(file: &CaseFile) -> String {
     }
     for swimmer in &model.swimmers {
         line("swimmer", swimmer_line(model, swimmer));
+        if let Some(senses) = senses_of_angles(model, swimmer) {
+            line("angles", senses);
+        }
     }
     if !model.commands.is_empty() {
         line("commands", model.commands.names().join(", "));
@@ -142,9 +145,15 @@ fn condition_name(condition: &BoundaryCondition) -> &'static str {
 fn body_line(case: &Case, body: &crate::case::Body) -> String {
     let shape = shape_in_words(&body.shape);
     let motion = match &body.motion {
-        Motion::Held => "held",
-        Motion::Free => "free",
-        Motion::Imposed(_) => "imposed motion",
+        Motion::Held => "held".to_owned(),
+        Motion::Free | Motion::ByAxis(_) => {
+            let driven = body.driven.iter().map(|driven| driven.motion.name());
+            match driven.collect::<Vec<_>>().join(" and ") {
+                none if none.is_empty() => "free".to_owned(),
+                driven => format!("{driven} imposed, else free but for what is held"),
+            }
+        }
+        Motion::Imposed(_) => "imposed motion".to_owned(),
     };
     let gait = match &body.gait {
         Some(GaitSpec::Squirmer(gait)) if case.geometry == Geometry::Spatial => {
@@ -217,9 +226,16 @@ fn shape_in_words(shape: &ShapeSpec) -> String {
             curve.points.len()
         ),
         ShapeSpec::Revolved { profile } => format!("turned profile of {} points", profile.len()),
+        ShapeSpec::Surface(surface) => {
+            format!("surface of {} triangles", surface.n_triangles())
+        }
         ShapeSpec::Union(parts) => {
             let names: Vec<&str> = parts.iter().map(|part| part.shape.name()).collect();
             format!("union of {}", names.join(" and "))
+        }
+        ShapeSpec::Polygon(polygon) => format!("polygon of {} corners", polygon.points.len()),
+        ShapeSpec::Box { size: [width, height] } => {
+            format!("box of {} by {}", significant(*width), significant(*height))
         }
         ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
         ShapeSpec::Fish(fish) => format!("fish of length {}", significant(fish.length)),
@@ -290,6 +306,39 @@ fn joint_line(joint: &Joint) -> String {
         }
     };
     format!("{} is attached to {}: {what}", joint.child, joint.parent)
+}
+
+/// What angles from files are taken to be, of a swimmer in the plane whose root is between its joints.
+fn senses_of_angles(model: &Model, swimmer: &SwimmerModel) -> Option<String> {
+    let root = *swimmer.bodies.first()?;
+    let made = |joint: &&usize| model.swimmer_of_joint(**joint).is_some();
+    let joints: Vec<usize> =
+        swimmer.bodies.iter().filter_map(|body| model.joint_above(*body)).collect();
+    let is_read = |joint: &usize| {
+        matches!(&model.joints[*joint].kind, JointKind::Bent { angle: Stroke::Cubic(_), .. })
+    };
+    if model.case.geometry != Geometry::Planar || !joints.iter().filter(made).any(is_read) {
+        return None;
+    }
+    let name = &model.bodies[root].name;
+    let (before, behind): (Vec<usize>, Vec<usize>) = joints
+        .iter()
+        .partition(|joint| model.body_index(&model.joints[**joint].child) < Some(root));
+    let names = |joints: &[usize]| {
+        let names = joints.iter().map(|joint| model.joints[*joint].child.as_str());
+        names.collect::<Vec<_>>().join(", ")
+    };
+    if before.is_empty() || behind.is_empty() {
+        return None;
+    }
+    Some(format!(
+        "{}: where positive, what is away from {name} is turned counter-clockwise: {} to the left of the \
+         heading, {} to its right; where all are angles of the front link less those of the link behind it, the latter \
+         need sign = -1 in `file`",
+        swimmer.name,
+        names(&before),
+        names(&behind)
+    ))
 }
 
 fn swimmer_line(model: &Model, swimmer: &SwimmerModel) -> String {

@@ -8,6 +8,8 @@ pub enum Fidelity {
     /// The full solver: flow on a mesh that follows the bodies
     #[default]
     Ale,
+    /// An elastic body without a flow, under loads facet by facet
+    Soft,
 }
 
 impl Fidelity {
@@ -15,6 +17,7 @@ impl Fidelity {
     pub fn name(self) -> &'static str {
         match self {
             Self::Ale => "ale",
+            Self::Soft => "soft",
         }
     }
 }

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use super::exit::{Exit, Failure};
 use super::facts::{facts, one_line};
+use super::soft;
 use super::style::{Ink, on_stdout, say};
+use crate::case::soft::SoftFile;
 use crate::case::{
     Case, CaseFile, Reference, check, library, number_table, printable, significant,
 };
@@ -12,7 +14,8 @@ use crate::case::{
 /// Lists the shipped cases.
 pub fn list(is_long: bool) -> Result<Exit, Failure> {
     let shipped = library::list();
-    let width = shipped.iter().map(|case| case.name.len()).max().unwrap_or(0);
+    let width =
+        shipped.iter().chain(library::soft()).map(|case| case.name.len()).max().unwrap_or(0);
     for entry in shipped {
         let file = Case::read(entry.name, &[])?;
         let case = file.case();
@@ -35,16 +38,28 @@ pub fn list(is_long: bool) -> Result<Exit, Failure> {
             }
         }
     }
+    for entry in library::soft() {
+        let file = SoftFile::read(entry.name, &[])?;
+        let name = on_stdout(Ink::Bold, &format!("{:<width$}", entry.name));
+        say(&format!("{name}  {} (soft)", one_line(&file.case.title)));
+    }
     Ok(Exit::Done)
 }
 
 /// Shows what a case is about, or prints its text.
 pub fn show(argument: &str, is_source: bool) -> Result<Exit, Failure> {
-    let file = Case::read(argument, &[])?;
+    let soft = SoftFile::read_if_soft(argument, &[])?;
+    let file = match &soft {
+        Some(_) => None,
+        None => Some(Case::read(argument, &[])?),
+    };
     if is_source {
         say(Case::text(argument)?.trim_end());
         return Ok(Exit::Done);
     }
+    let (None, Some(file)) = (&soft, file) else {
+        return soft.map_or(Ok(Exit::Done), |file| soft::show(&file));
+    };
     say(&summary(&file));
     Ok(Exit::Done)
 }

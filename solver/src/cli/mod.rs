@@ -5,6 +5,7 @@ mod complete;
 mod exit;
 mod facts;
 mod fidelity;
+mod gradient;
 mod library;
 mod manual;
 mod mesh;
@@ -13,8 +14,10 @@ mod parent;
 mod plot;
 mod read;
 mod run;
+mod soft;
 mod status;
 mod style;
+mod surface;
 mod sweep;
 mod validate;
 mod verify;
@@ -22,6 +25,7 @@ mod verify;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use alewife_reduced::tier::Which;
 use clap::{CommandFactory, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 
@@ -41,6 +45,7 @@ Examples:
   alewife check my.toml                         read it, mesh it, measure what a step takes
   alewife run my.toml --set mesh.scale=0.5      the same on a mesh twice as fine
   alewife sweep run my.toml --set fluid.viscosity=1:100:9:log
+  alewife calibrate starfish-twin               find numbers of an elastic body from its motion
   alewife validate --quick                      do the shipped cases agree with their references?
 
 A CASE is the path of a .toml file, the name of a shipped case, or either with /VARIANT behind it.
@@ -105,10 +110,20 @@ enum Command {
     },
     /// Run a case and compare it with its references
     Run(run::Options),
+    /// Print how quantities of a steady flow change with numbers of its case
+    Gradient(gradient::Options),
+    /// Find the numbers of a soft case that make it move as recorded
+    Calibrate(soft::SearchOptions),
+    /// Find the numbers of a soft case that make its objective large
+    Optimise(soft::SearchOptions),
+    /// Optimise, have a robot move so, and calibrate by what is seen, in turns
+    Loop(soft::LoopOptions),
     /// Draw quantities of a run over time, as text
     Plot(plot::Options),
     /// Show how far a run is
     Status(status::Options),
+    /// Report what a file of triangles encloses and whether it can be a body, and repair it
+    Surface(surface::Options),
     /// Check that what runs and sweeps have left is whole and agrees; nothing is run
     Verify(verify::Options),
     /// Run a case at many points: with several values of some of its keys
@@ -119,7 +134,11 @@ enum Command {
     ///
     /// Editors complete and check case files with it: write it to a file and put
     /// `#:schema ./alewife.schema.json` in the first line of the case.
-    Schema,
+    Schema {
+        /// That of soft cases
+        #[arg(long)]
+        soft: bool,
+    },
     /// Print what a shell needs to complete commands, options, cases, keys and quantities
     ///
     /// For bash, in ~/.bashrc: source <(alewife completions bash)
@@ -177,13 +196,19 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
             mesh::mesh(&case, &settings.set, mesh::Target { out, as_text: text })
         }
         Command::Run(options) => run::run(&options),
+        Command::Gradient(options) => gradient::gradient(&options),
+        Command::Calibrate(options) => soft::seek(&options, Which::Calibration),
+        Command::Optimise(options) => soft::seek(&options, Which::Optimisation),
+        Command::Loop(options) => soft::rounds(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),
+        Command::Surface(options) => surface::surface(&options),
         Command::Verify(options) => verify::verify(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::Validate(options) => validate::validate(&options),
-        Command::Schema => {
-            say(crate::case::schema().trim_end());
+        Command::Schema { soft } => {
+            let schema = if soft { crate::case::soft::schema() } else { crate::case::schema() };
+            say(schema.trim_end());
             Ok(Exit::Done)
         }
         Command::Completions { shell } => complete::completions(shell, &CommandLine::command()),

@@ -3,8 +3,9 @@
 use clap::Args;
 
 use super::complete;
-use super::exit::Failure;
+use super::exit::{Exit, Failure};
 use super::style::{self, complain};
+use crate::case::soft::SoftFile;
 use crate::case::{CaseFile, Diagnostic, Severity, at_rest, check};
 
 /// Keys set on the command line.
@@ -40,6 +41,13 @@ pub struct CheckedCase {
 
 /// Reads a case and refuses it if it is wrong; warnings are handed back.
 pub fn read_and_check(argument: &str, settings: &[String]) -> Result<CheckedCase, Failure> {
+    if SoftFile::read_if_soft(argument, settings)?.is_some() {
+        let message = format!(
+            "{argument} is a soft case, an elastic body without a flow: use run --fidelity soft, check, show, \
+             calibrate, optimise or loop"
+        );
+        return Err(Failure::new(Exit::Usage, message));
+    }
     let file = crate::case::Case::read(argument, settings)?;
     let mut warnings = check(&file);
     if warnings.iter().any(|one| one.severity == Severity::Error) {

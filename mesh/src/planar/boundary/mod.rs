@@ -245,8 +245,8 @@ impl BoundaryLoops {
         }
     }
 
-    /// The corner of a polygon at the start of a piece, 0, or at its end, 1, and the shorter of its sides (m).
-    pub fn corner(&self, piece: usize, parameter: f64) -> Option<(Corner, f64)> {
+    /// The corner of a polygon at the start of a piece, 0, or at its end, 1.
+    pub fn corner(&self, piece: usize, parameter: f64) -> Option<Corner> {
         let Curve::Quarter { outline, quarter, reversed } = self.pieces[piece].curve else {
             return None;
         };
@@ -255,9 +255,7 @@ impl BoundaryLoops {
         let outline = &self.outlines[outline];
         let (corners, n) = (outline.corners(), outline.n_pieces());
         let index = if at_end { (quarter + 1) % n } else { quarter };
-        let corner = corners.get(index).filter(|_| at_start || at_end)?;
-        let length = |side: usize| outline.evaluate(side, 0.0)[1].norm();
-        Some((*corner, length(index).min(length((index + n - 1) % n))))
+        corners.get(index).filter(|_| at_start || at_end).copied()
     }
 }
 

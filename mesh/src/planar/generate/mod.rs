@@ -8,6 +8,7 @@ mod delaunay;
 mod edges;
 mod front;
 mod improve;
+mod interior;
 mod mirror;
 mod opened;
 mod order;
@@ -16,6 +17,8 @@ mod quadratic;
 mod relax;
 mod trial;
 mod triangulation;
+
+pub use interior::{Triangles, points_of_outline, triangulate_inside};
 
 use edges::BoundaryEdges;
 use mirror::Mirror;

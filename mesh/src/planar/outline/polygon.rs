@@ -20,6 +20,16 @@ pub struct Corner {
     pub sides: [Point<2>; 2],
     /// Parameter of [`crate::Outline::at`]: the length along the sides up to it (m).
     pub parameter: f64,
+    /// Length of the shorter of both sides (m).
+    pub shorter: f64,
+}
+
+/// A place on a polygon.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    side: usize,
+    /// How far along the side, from 0 to 1.
+    part: f64,
 }
 
 impl Corner {
@@ -83,10 +93,8 @@ impl Polygon {
     /// The same with a bend in the place of each corner, within the polygon, so that its tangent turns
     /// continuously.
     pub fn blunted(&self) -> Self {
-        let length = |side: usize| self.knots[side + 1] - self.knots[side];
-        let n = self.corners.len();
-        let bend = |i: usize| BLUNT * length(i).min(length((i + n - 1) % n));
-        Self { bends: (0..n).map(bend).collect(), ..self.clone() }
+        let bends = self.corners().map(|corner| BLUNT * corner.shorter).collect();
+        Self { bends, ..self.clone() }
     }
 
     /// Number of its sides.
@@ -111,7 +119,13 @@ impl Polygon {
             at: self.corners[i],
             sides: [self.along((i + n - 1) % n), self.along(i)],
             parameter: self.knots[i],
+            shorter: self.length(i).min(self.length((i + n - 1) % n)),
         })
+    }
+
+    /// Length of a side (m).
+    fn length(&self, side: usize) -> f64 {
+        self.knots[side + 1] - self.knots[side]
     }
 
     /// Direction of a side.
@@ -177,31 +191,31 @@ impl Polygon {
         breaks
     }
 
-    /// The place of the sharp polygon that is nearest to a point: its side, and how far along it.
-    fn nearest_place(&self, point: Point<2>) -> (usize, f64) {
-        let mut best = (f64::INFINITY, 0, 0.0);
+    /// The place of the sharp polygon that is nearest to a point.
+    fn nearest_place(&self, point: Point<2>) -> Place {
+        let (mut least, mut nearest) = (f64::INFINITY, Place { side: 0, part: 0.0 });
         for side in 0..self.corners.len() {
             let [from, to] = self.ends(side);
             let along = to - from;
             let part = ((point - from).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
             let distance = (from + along * part - point).norm_squared();
-            if distance < best.0 {
-                best = (distance, side, part);
+            if distance < least {
+                (least, nearest) = (distance, Place { side, part });
             }
         }
-        (best.1, best.2)
+        nearest
     }
 
     /// Length along the sides to the place nearest to a point (m).
     pub fn parameter_of(&self, point: Point<2>) -> f64 {
-        let (side, part) = self.nearest_place(point);
-        self.knots[side] + part * (self.knots[side + 1] - self.knots[side])
+        let Place { side, part } = self.nearest_place(point);
+        self.knots[side] + part * self.length(side)
     }
 
     /// The place of the sharp polygon that is nearest to a point.
     pub fn nearest(&self, point: Point<2>) -> Foot {
         let n = self.corners.len();
-        let (side, part) = self.nearest_place(point);
+        let Place { side, part } = self.nearest_place(point);
         let [at, along, _] = self.evaluate(side, part);
         let outward = |along: Point<2>| Point::<2>::new(along.y, -along.x).normalize();
         let mut normal = outward(along);
@@ -249,8 +263,8 @@ impl Polygon {
 }
 
 /// The least exponent of the distance from a corner with which Stokes flow at rest on both of its sides
-/// grows, where the outline turns by an angle (rad): that of the fluid is pi more (Moffatt 1964, Dean and
-/// Montagnon 1949). One where the corner is hollow or straight.
+/// grows, where the outline turns by an angle (rad): that of the fluid is pi more (@moffatt1964). One where the
+/// corner is hollow or straight.
 pub fn stokes_exponent(turn: f64) -> f64 {
     let angle = std::f64::consts::PI + turn;
     if turn <= 0.0 {

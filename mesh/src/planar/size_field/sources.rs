@@ -188,9 +188,9 @@ impl<'a> Surfaces<'a> {
     /// Stokes flow near a corner goes like the power l of the distance, and stresses like l - 1. With cells
     /// of size h (h / L)^(1 / l - 1) there, L the shorter side, a force converges as without corners.
     fn part_at_corner(&self, piece: usize, parameter: f64, size: f64) -> f64 {
-        let Some((corner, side)) = self.border.corner(piece, parameter) else { return 1.0 };
+        let Some(corner) = self.border.corner(piece, parameter) else { return 1.0 };
         let exponent = 1.0 / stokes_exponent(corner.turn()) - 1.0;
-        (size / side).min(1.0).powf(exponent).max(SMALLEST_AT_CORNER)
+        (size / corner.shorter).min(1.0).powf(exponent).max(SMALLEST_AT_CORNER)
     }
 
     /// Distance to the nearest body, the images of all and the body itself left out.

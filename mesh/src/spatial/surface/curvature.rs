@@ -19,6 +19,7 @@ impl SmoothSurface {
             Form::Ellipsoid(ellipsoid) => ellipsoid.radius_of_curvature(self.to_local(on)),
             Form::Revolved(revolved) => revolved.radius_of_curvature(self.to_local(on)),
             Form::Slender(slender) => slender.radius_of_curvature(self.to_local(on)),
+            Form::Triangulated(triangles) => triangles.bent_foot(self.to_local(on)).bend.radius,
         }
     }
 
@@ -28,6 +29,7 @@ impl SmoothSurface {
         match &self.form {
             Form::Ellipsoid(ellipsoid) => ellipsoid.radius_inside(self.to_local(on)),
             Form::Slender(slender) => slender.radius_inside(self.to_local(on)),
+            Form::Triangulated(triangles) => triangles.bent_foot(self.to_local(on)).bend.inside,
             _ => f64::INFINITY,
         }
     }
@@ -42,6 +44,7 @@ impl SmoothSurface {
             Form::Ellipsoid(ellipsoid) => ellipsoid.inner_radius(),
             Form::Revolved(revolved) => revolved.inner_radius(),
             Form::Slender(slender) => slender.inner_radius(),
+            Form::Triangulated(triangles) => triangles.inner_radius(),
         }
     }
 
@@ -54,7 +57,11 @@ impl SmoothSurface {
             | Form::Cylinder(_)
             | Form::Capsule { .. }
             | Form::Ellipsoid(_) => true,
-            Form::Tube(_) | Form::Revolved(_) | Form::Slender(_) | Form::Facets(_) => false,
+            Form::Tube(_)
+            | Form::Revolved(_)
+            | Form::Slender(_)
+            | Form::Triangulated(_)
+            | Form::Facets(_) => false,
         }
     }
 
@@ -73,7 +80,11 @@ impl SmoothSurface {
         if let Form::Sphere(radius) = self.form {
             return along * (if self.is_hollow { -1.0 } else { 1.0 } / radius);
         }
-        let step = CURVATURE_STEP * self.radius_of_curvature(on).min(self.scale());
+        let mut step = CURVATURE_STEP * self.radius_of_curvature(on).min(self.scale());
+        if let Form::Triangulated(triangles) = &self.form {
+            // From one triangle to the next, whose normals differ a little where they meet
+            step = triangles.bent_foot(self.to_local(on)).bend.edge;
+        }
         let mut derivative = Matrix3::zeros();
         for axis in 0..3 {
             let way: Point<3> = along.column(axis) * step;

@@ -1,4 +1,4 @@
-//! `Facets`: a side of a given mesh as triangles, straight or quadratic, and the distance to it.
+//! `Facets`: a surface of triangles, straight or quadratic, and the distance to it.
 
 use std::collections::BTreeMap;
 
@@ -26,6 +26,13 @@ impl PartialEq for Facets {
     }
 }
 
+/// The nearest point of a surface, and the triangle it is on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OnTriangle {
+    pub foot: Foot,
+    pub triangle: usize,
+}
+
 /// The nearest point of all triangles.
 #[derive(Debug, Clone, Copy)]
 struct Nearest {
@@ -50,7 +57,12 @@ impl Facets {
             let is_rim = edges(mesh, facet).map(|edge| n_sharing[&edge] == 1);
             Patch::new([n[0], n[1], n[2]], [n[3], n[4], n[5]], is_rim)
         };
-        let patches: Vec<Patch> = own.iter().map(patch).collect();
+        Self::new(own.iter().map(patch).collect())
+    }
+
+    /// These triangles.
+    #[must_use]
+    pub(super) fn new(patches: Vec<Patch>) -> Self {
         let boxes: Vec<Bounds<3>> = patches.iter().map(Patch::bounds).collect();
         let is_curved = patches.iter().any(Patch::is_curved);
         Self { tree: BoxTree::new(&boxes), patches, is_curved }
@@ -100,6 +112,14 @@ impl Facets {
         match self.nearest(point, f64::INFINITY) {
             Some(nearest) => self.foot_of(point, &nearest),
             None => Foot { point, normal: Point::<3>::zeros(), gap: f64::INFINITY },
+        }
+    }
+
+    /// The same, and which triangle it is on.
+    pub(super) fn on_triangle(&self, point: Point<3>) -> OnTriangle {
+        match self.nearest(point, f64::INFINITY) {
+            Some(at) => OnTriangle { foot: self.foot_of(point, &at), triangle: at.patch },
+            None => OnTriangle { foot: self.foot(point), triangle: 0 },
         }
     }
 

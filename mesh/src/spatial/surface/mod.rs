@@ -8,6 +8,7 @@ mod revolved;
 mod ring;
 mod sizes;
 mod slender;
+mod triangulated;
 mod tube;
 
 pub use ellipsoid::Ellipsoid;
@@ -16,6 +17,7 @@ pub use patch::is_bent;
 pub use revolved::Revolved;
 pub use sizes::{Bend, SizedGap};
 pub use slender::Slender;
+pub use triangulated::Triangulated;
 pub use tube::Tube;
 
 use std::sync::Arc;
@@ -48,6 +50,8 @@ pub enum Form {
     Revolved(Arc<Revolved>),
     /// Elliptic sections about a midline in the plane z = 0.
     Slender(Arc<Slender>),
+    /// Triangles, smooth through their vertices.
+    Triangulated(Arc<Triangulated>),
     /// A side of a given mesh, in the frame of the mesh.
     Facets(Arc<Facets>),
 }
@@ -180,6 +184,7 @@ impl SmoothSurface {
             Form::Tube(tube) => tube.reach(),
             Form::Revolved(revolved) => revolved.reach(),
             Form::Slender(slender) => slender.reach(),
+            Form::Triangulated(triangles) => triangles.reach(),
         }
     }
 
@@ -238,6 +243,7 @@ impl SmoothSurface {
             | Form::Ellipsoid(_)
             | Form::Revolved(_)
             | Form::Slender(_)
+            | Form::Triangulated(_)
             | Form::Facets(_) => off,
         }
     }
@@ -251,9 +257,11 @@ impl SmoothSurface {
                 self.off_skeleton(point).norm() - radius
             }
             Form::Tube(tube) => self.off_skeleton(point).norm() - tube.radius(),
-            Form::Ellipsoid(_) | Form::Revolved(_) | Form::Slender(_) | Form::Facets(_) => {
-                return self.foot(point).gap;
-            }
+            Form::Ellipsoid(_)
+            | Form::Revolved(_)
+            | Form::Slender(_)
+            | Form::Triangulated(_)
+            | Form::Facets(_) => return self.foot(point).gap,
         };
         if self.is_hollow { -gap } else { gap }
     }
@@ -274,6 +282,7 @@ impl SmoothSurface {
             Form::Ellipsoid(ellipsoid) => self.to_world(&ellipsoid.foot(self.to_local(point))),
             Form::Revolved(revolved) => self.to_world(&revolved.foot(self.to_local(point))),
             Form::Slender(slender) => self.to_world(&slender.foot(self.to_local(point))),
+            Form::Triangulated(triangles) => self.to_world(&triangles.foot(self.to_local(point))),
             Form::Facets(facets) => facets.foot(point),
         };
         if self.is_hollow {
@@ -314,13 +323,18 @@ impl SmoothSurface {
         self.places(SAMPLES).iter().any(|point| plane.gap(*point) <= 0.0)
     }
 
-    /// About so many places on it, as seen from far away; of a slender body all over it.
+    /// About so many places on it, as seen from far away; of a slender body and of triangles all over it.
     #[must_use]
     pub fn places(&self, n: usize) -> Vec<Point<3>> {
         if let Form::Slender(slender) = &self.form {
             let all: Vec<Point<3>> = slender.places().collect();
             let every = (all.len() / n).max(1);
             let own = all.iter().step_by(every);
+            return own.map(|place| self.origin + self.rotation * place).collect();
+        }
+        if let Form::Triangulated(triangles) = &self.form {
+            let all = triangles.places();
+            let own = all.iter().step_by((all.len() / n).max(1));
             return own.map(|place| self.origin + self.rotation * place).collect();
         }
         let far = 2.0 * self.reach();

@@ -30,6 +30,15 @@ pub struct Patch {
     is_rim: [bool; 3],
 }
 
+/// The area of the reference coordinates at a place of a triangle.
+#[derive(Debug, Clone, Copy)]
+pub struct Element {
+    /// Where it is (m).
+    pub at: Point<3>,
+    /// Its area (m2) along the normal into the fluid.
+    pub outward: Point<3>,
+}
+
 /// A point of a triangle.
 #[derive(Debug, Clone, Copy)]
 pub struct OnPatch {
@@ -69,11 +78,18 @@ impl Patch {
         self.corners.iter().chain(nodes).copied()
     }
 
+    /// The control points of its Bezier form (m), within whose hull it lies.
+    pub fn control_points(&self) -> impl Iterator<Item = Point<3>> + '_ {
+        let node =
+            |i: usize| self.nodes[i] * 2.0 - (self.corners[i] + self.corners[(i + 1) % 3]) * 0.5;
+        self.corners.iter().copied().chain((0..3).map(node))
+    }
+
     /// A box around it: around the control points of its Bezier form.
     pub fn bounds(&self) -> Bounds<3> {
         let mut bounds = Bounds::around(&self.corners);
-        for (i, node) in self.nodes.iter().enumerate() {
-            bounds.include(&(node * 2.0 - (self.corners[i] + self.corners[(i + 1) % 3]) * 0.5));
+        for point in self.control_points().skip(3) {
+            bounds.include(&point);
         }
         bounds
     }
@@ -92,6 +108,20 @@ impl Patch {
     pub fn inward(&self, place: [f64; 2]) -> Point<3> {
         let [along, across] = self.tangents(place);
         -along.cross(&across).normalize()
+    }
+
+    /// The area of the reference coordinates at a place.
+    pub fn element(&self, place: [f64; 2]) -> Element {
+        let [along, across] = self.tangents(place);
+        Element { at: self.at(place), outward: -along.cross(&across) }
+    }
+
+    /// The least cosine between its normal at its nodes and that of the straight triangle.
+    pub fn least_cosine(&self) -> f64 {
+        let [a, b, c] = &self.corners;
+        let flat = -(b - a).cross(&(c - a)).normalize();
+        let places = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+        places.iter().map(|place| self.inward(*place).dot(&flat)).fold(1.0, f64::min)
     }
 
     /// The derivative of the unit normal into the fluid along the triangle at a place (1/m).

@@ -1,11 +1,15 @@
 //! Edge lengths wanted on a surface, and rough distances, which are enough for sizes.
 
+use super::triangulated::{Bend as TriangleBend, BentFoot};
 use super::{Form, SAMPLES, SmoothSurface};
 use crate::Point;
 
 /// Edges are at most as many radii long of the largest ball inside that touches the surface there: with
 /// longer ones the lattice has edges that go through a thin body.
 const EDGES_OF_RADIUS_INSIDE: f64 = 1.5;
+
+/// Places on triangles that are looked at.
+const TRIANGLES: usize = 10_000;
 
 /// A place at which a surface bends, with the edge length wanted there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,15 +37,25 @@ impl SmoothSurface {
             let parts = [self.turn, EDGES_OF_RADIUS_INSIDE];
             return self.size.min(slender.smaller_radius(self.to_local(on), parts));
         }
+        if let Form::Triangulated(triangles) = &self.form {
+            return self.size_by(triangles.bent_foot(self.to_local(on)).bend);
+        }
         let size = self.size.min(self.turn * self.radius_of_curvature(on));
         size.min(EDGES_OF_RADIUS_INSIDE * self.radius_inside(on))
+    }
+
+    /// Edge length wanted on a triangle (m).
+    fn size_by(&self, bend: TriangleBend) -> f64 {
+        self.size.min(self.turn * bend.radius).min(EDGES_OF_RADIUS_INSIDE * bend.inside)
     }
 
     /// Edge length wanted on it where that is the same everywhere (m).
     #[must_use]
     pub fn uniform_size(&self) -> Option<f64> {
         match &self.form {
-            Form::Ellipsoid(_) | Form::Revolved(_) | Form::Slender(_) => None,
+            Form::Ellipsoid(_) | Form::Revolved(_) | Form::Slender(_) | Form::Triangulated(_) => {
+                None
+            }
             _ => Some(self.size_at(self.origin)),
         }
     }
@@ -54,6 +68,11 @@ impl SmoothSurface {
             let rough = slender.rough_sized_gap(self.to_local(point), parts);
             let gap = if self.is_hollow { -rough.gap } else { rough.gap };
             return SizedGap { gap, size: self.size.min(rough.size) };
+        }
+        if let Form::Triangulated(triangles) = &self.form {
+            let BentFoot { foot, bend } = triangles.bent_foot(self.to_local(point));
+            let gap = if self.is_hollow { -foot.gap } else { foot.gap };
+            return SizedGap { gap, size: self.size_by(bend) };
         }
         if let Some(size) = self.uniform_size() {
             return SizedGap { gap: self.gap(point), size };
@@ -88,6 +107,10 @@ impl SmoothSurface {
         if let Form::Slender(slender) = &self.form {
             return slender.relative_distance(self.to_local(near));
         }
+        if let Form::Triangulated(triangles) = &self.form {
+            let BentFoot { foot, bend } = triangles.bent_foot(self.to_local(near));
+            return foot.gap.abs() / bend.radius;
+        }
         let foot = self.foot(near);
         foot.gap.abs() / self.radius_of_curvature(foot.point)
     }
@@ -103,7 +126,8 @@ impl SmoothSurface {
             [axis, -axis]
         });
         let far = 2.0 * self.reach();
-        let on = axes.map(|to| self.foot(self.origin + to * far).point).chain(self.places(SAMPLES));
+        let n = if matches!(self.form, Form::Triangulated(_)) { TRIANGLES } else { SAMPLES };
+        let on = axes.map(|to| self.foot(self.origin + to * far).point).chain(self.places(n));
         let mut all: Vec<Bend> = on.map(|at| Bend { at, size: self.size_at(at) }).collect();
         all.retain(|bend| bend.size < self.size);
         all.sort_by(|a, b| a.size.total_cmp(&b.size));

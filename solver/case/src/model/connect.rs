@@ -4,7 +4,8 @@ use super::Model;
 use super::commands::Commands;
 use crate::spec::body::command::Command;
 use crate::{
-    Body, BoundaryCondition, GaitSpec, JointKind, MagneticSpec, Motion, Stroke, TimeFunction,
+    Body, BoundaryCondition, DrivenLaw, GaitSpec, JointKind, MagneticSpec, Motion, Stroke,
+    TimeFunction,
 };
 
 /// A command of a body or a side: what it is called there, the key below that of its owner, and the command.
@@ -130,10 +131,25 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
     if let Some(command) = of_factor(body.load_factor.as_mut()) {
         found.push(("load".to_owned(), "load_factor".to_owned(), command));
     }
-    if let Motion::Imposed(imposed) = &mut body.motion
-        && let Some(command) = of_factor(imposed.factor.as_mut())
-    {
-        found.push(("motion".to_owned(), "motion.imposed.factor".to_owned(), command));
+    if let Motion::Imposed(imposed) = &mut body.motion {
+        for (what, key, factor) in [
+            ("motion", "factor", &mut imposed.factor),
+            ("turn", "angular_factor", &mut imposed.angular_factor),
+        ] {
+            if let Some(command) = of_factor(factor.as_mut()) {
+                found.push((what.to_owned(), format!("motion.imposed.{key}"), command));
+            }
+        }
+    }
+    for driven in &mut body.driven {
+        let what = driven.motion.name();
+        let (below, command) = match &mut driven.law {
+            DrivenLaw::Way(stroke) => ("imposed", of_stroke(Some(stroke))),
+            DrivenLaw::Rate(rate) => ("velocity.factor", of_factor(rate.factor.as_mut())),
+        };
+        if let Some(command) = command {
+            found.push((format!("motion.{what}"), format!("motion.{what}.{below}"), command));
+        }
     }
     match &mut body.gait {
         Some(GaitSpec::Squirmer(gait)) => {

@@ -5,9 +5,11 @@ use std::sync::Arc;
 use alewife_mesh::spatial::{SectionHeight, Sections};
 use alewife_mesh::{FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape, Spline};
 
+use crate::spec::body::given::polygon::box_corners;
+use crate::spec::body::motion::by_axis::Settled;
 use crate::spec::body::solid_shape;
 use crate::spec::body::solid_shape::Measures;
-use crate::{Body, FishShape, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
+use crate::{Body, Case, FishShape, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
 
 /// Directions in which the width of a spline is measured.
 const DIRECTIONS: u32 = 90;
@@ -64,11 +66,13 @@ impl ShapeSpec {
         sections.map_or_else(|| self.volume(), |sections| sections.moments().volume)
     }
 
-    /// Points of a spline or a slender body in the body frame (m); none of other shapes.
+    /// Points of a spline, a polygon, a box or a slender body in the body frame (m); none of other shapes.
     #[must_use]
     pub fn points(&self) -> Vec<[f64; 2]> {
         match self {
             Self::Spline { points } => points.clone(),
+            Self::Polygon(polygon) => polygon.corners(),
+            Self::Box { size } => box_corners(*size),
             Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let spline = self.profile().and_then(|profile| profile.spline());
                 let points = |spline: Spline| -> Vec<[f64; 2]> {
@@ -88,6 +92,7 @@ impl ShapeSpec {
             Self::Disc { radius } => Shape::Disc { radius },
             Self::Ellipse { semi_axes } => Shape::Ellipse { semi_axes },
             Self::Spline { points } => Shape::Spline { points },
+            Self::Polygon(_) | Self::Box { .. } => Shape::Polygon { points: self.points() },
             Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let spline = self.profile().and_then(|profile| profile.spline());
                 // `check` refuses lengths that make no body
@@ -103,6 +108,7 @@ impl ShapeSpec {
             | Self::Helix(_)
             | Self::Curve(_)
             | Self::Revolved { .. }
+            | Self::Surface(_)
             | Self::Union(_) => Shape::Spline { points: Vec::new() },
         }
     }
@@ -117,7 +123,12 @@ impl ShapeSpec {
         match self {
             Self::Disc { radius } => 2.0 * PI * radius,
             Self::Ellipse { semi_axes } => ellipse(*semi_axes),
-            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
+            Self::Spline { .. }
+            | Self::Polygon(_)
+            | Self::Box { .. }
+            | Self::Fish(_)
+            | Self::Flagellate(_)
+            | Self::Tube(_) => {
                 let points = self.points();
                 (0..points.len())
                     .map(|i| {
@@ -135,18 +146,21 @@ impl ShapeSpec {
             }
             Self::Capsule { length, radius } => length + (PI - 2.0) * radius,
             Self::Cylinder { length, .. } => *length,
-            Self::Helix(_) | Self::Curve(_) | Self::Revolved { .. } | Self::Union(_) => {
-                self.measures().map_or(0.0, |measures| measures.length)
-            }
+            Self::Helix(_)
+            | Self::Curve(_)
+            | Self::Revolved { .. }
+            | Self::Surface(_)
+            | Self::Union(_) => self.measures().map_or(0.0, |measures| measures.length),
         }
     }
 
-    /// Measures of a solid made of a curve, a profile or parts; `None` of other shapes.
+    /// Measures of a solid made of a curve, a profile, triangles or parts; `None` of other shapes.
     fn measures(&self) -> Option<Measures> {
         match self {
             Self::Helix(helix) => Some(helix.measures()),
             Self::Curve(curve) => curve.measures(),
             Self::Revolved { profile } => Some(solid_shape::revolved(profile)),
+            Self::Surface(surface) => surface.measures(),
             Self::Union(parts) => Some(solid_shape::union(parts)),
             _ => None,
         }
@@ -208,14 +222,19 @@ impl ShapeSpec {
             Self::Ellipsoid { semi_axes } => semi_axes.iter().copied().fold(0.0, f64::max),
             Self::Capsule { length, .. } => 0.5 * length,
             Self::Cylinder { length, radius, .. } => radius.hypot(0.5 * length),
-            Self::Helix(_) | Self::Curve(_) | Self::Revolved { .. } | Self::Union(_) => {
-                self.measures().map_or(0.0, |measures| measures.reach)
-            }
+            Self::Helix(_)
+            | Self::Curve(_)
+            | Self::Revolved { .. }
+            | Self::Surface(_)
+            | Self::Union(_) => self.measures().map_or(0.0, |measures| measures.reach),
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.max(*b),
-            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
-                self.points().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
-            }
+            Self::Spline { .. }
+            | Self::Polygon(_)
+            | Self::Box { .. }
+            | Self::Fish(_)
+            | Self::Flagellate(_)
+            | Self::Tube(_) => self.points().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max),
         }
     }
 
@@ -227,12 +246,19 @@ impl ShapeSpec {
                 semi_axes.iter().copied().fold(f64::INFINITY, f64::min)
             }
             Self::Capsule { radius, .. } | Self::Cylinder { radius, .. } => *radius,
-            Self::Helix(_) | Self::Curve(_) | Self::Revolved { .. } | Self::Union(_) => {
-                self.measures().map_or(0.0, |measures| measures.half_width)
-            }
+            Self::Helix(_)
+            | Self::Curve(_)
+            | Self::Revolved { .. }
+            | Self::Surface(_)
+            | Self::Union(_) => self.measures().map_or(0.0, |measures| measures.half_width),
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.min(*b),
-            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
+            Self::Spline { .. }
+            | Self::Polygon(_)
+            | Self::Box { .. }
+            | Self::Fish(_)
+            | Self::Flagellate(_)
+            | Self::Tube(_) => {
                 let points = self.points();
                 (0..DIRECTIONS)
                     .map(|i| std::f64::consts::PI * f64::from(i) / f64::from(DIRECTIONS))
@@ -271,7 +297,11 @@ impl Body {
         let mut translations = geometry.motions().iter().filter(is_translation);
         match &self.motion {
             Motion::Held => false,
-            Motion::Free => translations.any(|motion| !self.locked.contains(motion)),
+            Motion::Free => {
+                let is_driven = self.driven.iter().any(|driven| driven.motion != Lock::Rotation);
+                is_driven || translations.any(|motion| !self.locked.contains(motion))
+            }
+            Motion::ByAxis(_) => true,
             Motion::Imposed(imposed) => imposed.velocity.iter().any(|part| *part != 0.0),
         }
     }
@@ -281,9 +311,25 @@ impl Body {
     pub fn turns(&self) -> bool {
         match &self.motion {
             Motion::Held => false,
-            Motion::Free => !self.locked.contains(&Lock::Rotation),
+            Motion::Free => !self.locked.contains(&Lock::Rotation) || self.drives(Lock::Rotation),
+            Motion::ByAxis(_) => true,
             Motion::Imposed(imposed) => !imposed.angular_velocity.is_zero(),
         }
+    }
+
+    /// Has motions by axis be those of a free body that are locked, or locked and driven.
+    pub(crate) fn settle_motion(&mut self) {
+        let Motion::ByAxis(motions) = &self.motion else { return };
+        let Settled { moves, locked, driven } = motions.settled();
+        self.motion = if moves { Motion::Free } else { Motion::Held };
+        self.locked = if moves { locked } else { Vec::new() };
+        self.driven = driven;
+    }
+
+    /// Whether the rate of a motion is given while others may be free.
+    #[must_use]
+    pub fn drives(&self, motion: Lock) -> bool {
+        self.driven.iter().any(|driven| driven.motion == motion)
     }
 
     /// Whether its outline changes in time.
@@ -304,10 +350,17 @@ impl Body {
         }
     }
 
-    /// Whether the body looks the same however it is turned.
+    /// Whether the body looks the same however it turns about its centre of mass.
     #[must_use]
     pub fn is_round(&self) -> bool {
-        matches!(self.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. })
+        let is_centred = self.center_of_mass.iter().all(|part| *part == 0.0);
+        is_centred && matches!(self.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. })
+    }
+
+    /// Its mass (kg; kg/m planar) in a case, by the volume of its shape (m3; m2 planar) where none is given.
+    pub(crate) fn mass_in(&self, case: &Case) -> f64 {
+        let density = self.density.unwrap_or(case.fluid.density);
+        self.mass.unwrap_or_else(|| density * self.shape.volume_in(case.geometry))
     }
 }
 

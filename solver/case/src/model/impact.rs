@@ -45,7 +45,7 @@ fn impact(case: &Case, body: &Body) -> Option<Impact> {
     let load = load_in_space(case, body);
     let size = norm(&load);
     let volume = body.shape.volume_in(case.geometry);
-    let mass = body.density.unwrap_or(case.fluid.density) * volume;
+    let mass = body.mass_in(case);
     let displaced = case.fluid.density * volume;
     if !(size > 0.0 && mass > 0.0) {
         return None;

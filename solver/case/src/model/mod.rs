@@ -10,6 +10,7 @@ pub(crate) mod impact;
 pub(crate) mod numbers;
 mod part_pose;
 mod parts;
+mod probes;
 pub(crate) mod random;
 pub(crate) mod region;
 pub(crate) mod speed;
@@ -19,6 +20,7 @@ use std::collections::HashMap;
 use self::commands::Commands;
 use self::copies::{Individual, individuals, product};
 use self::parts::{Part, parts, poses};
+use crate::spec::body::joint::LABORATORY;
 use crate::text::diagnostic::CaseError;
 use crate::{
     AxialVector, Body, BoundaryCondition, Case, Copies, FlowModel, GaitSpec, Geometry, Joint,
@@ -108,6 +110,7 @@ impl Model {
                 _ => model.add_individuals(index, swimmer)?,
             }
         }
+        model.bodies.iter_mut().for_each(Body::settle_motion);
         model.add_single_bodies();
         model.joint_above = vec![None; model.bodies.len()];
         for (child, joint) in &model.joint_of_child {
@@ -230,8 +233,14 @@ impl Model {
                 angle: pose.angle(),
                 orientation: pose.orientation(),
                 density: part.density.or(swimmer.density),
+                mass: None,
+                inertia: None,
+                center_of_mass: Vec::new(),
                 motion,
                 locked: Vec::new(),
+                driven: Vec::new(),
+                velocity: Vec::new(),
+                angular_velocity: AxialVector::default(),
                 gait: part.gait.clone(),
                 force: Vec::new(),
                 torque: AxialVector::default(),
@@ -275,6 +284,12 @@ impl Model {
     #[must_use]
     pub fn body_index(&self, name: &str) -> Option<usize> {
         self.by_name.get(name).copied()
+    }
+
+    /// Whether a joint hangs on the laboratory, and not on a body of that name.
+    #[must_use]
+    pub fn hangs_on_laboratory(&self, joint: &Joint) -> bool {
+        joint.parent == LABORATORY && self.body_index(LABORATORY).is_none()
     }
 
     /// The joint by which a body is attached to another one, by its number in [`Self::joints`].

@@ -30,7 +30,11 @@ pub fn reynolds(case: &Case) -> Option<f64> {
 #[must_use]
 pub fn density_ratio(model: &Model) -> Option<f64> {
     let (case, body) = (&model.case, model.bodies.first()?);
-    (case.fluid.density > 0.0).then(|| body.density.map_or(1.0, |own| own / case.fluid.density))
+    let own = match body.mass {
+        Some(mass) => Some(mass / body.shape.volume_in(case.geometry)),
+        None => body.density,
+    };
+    (case.fluid.density > 0.0).then(|| own.map_or(1.0, |own| own / case.fluid.density))
 }
 
 /// All numbers that can be derived from a case, in the order in which they are printed.

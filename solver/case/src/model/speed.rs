@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::{
-    Body, BoundaryCondition, Case, ContactSpec, Formula, GaitSpec, Geometry, Joint, JointKind,
-    MagneticSpec, Model, Motion, ParsedFormula, Stroke,
+    Body, BoundaryCondition, Case, ContactSpec, DrivenLaw, Formula, GaitSpec, Geometry, Joint,
+    JointKind, Lock, MagneticSpec, Model, Motion, ParsedFormula, Stroke,
 };
 
 /// Times of a stroke's period at which its rate is looked at.
@@ -115,6 +115,14 @@ fn top_rate(stroke: &Stroke) -> f64 {
     (0..TIMES).map(|n| stroke.at(time(n))[1].abs()).fold(0.0, f64::max)
 }
 
+/// The order of the largest rate of a motion that is given (m/s or rad/s).
+fn driven_rate(law: &DrivenLaw) -> f64 {
+    match law {
+        DrivenLaw::Way(stroke) => top_rate(stroke),
+        DrivenLaw::Rate(rate) => rate.value.abs(),
+    }
+}
+
 /// The largest strength that a field may have in time at a place (T), by the sum of those of its parts.
 fn largest_at(magnetic: &MagneticSpec, place: &[f64]) -> f64 {
     let most = |stroke: &Stroke| {
@@ -198,7 +206,15 @@ fn body_speed(case: &Case, body: &Body) -> f64 {
     let imposed = match &body.motion {
         Motion::Imposed(motion) => norm(&motion.velocity) + motion.angular_velocity.norm() * reach,
         Motion::Held => return 0.0,
-        Motion::Free => terminal_speed(case, body),
+        Motion::Free => {
+            let initial = norm(&body.velocity) + body.angular_velocity.norm() * reach;
+            let driven = body.driven.iter().map(|driven| {
+                let length = if driven.motion == Lock::Rotation { reach } else { 1.0 };
+                length * driven_rate(&driven.law)
+            });
+            terminal_speed(case, body).max(initial).max(driven.sum())
+        }
+        Motion::ByAxis(_) => 0.0,
     };
     let gait = match &body.gait {
         Some(GaitSpec::Squirmer(squirmer)) => squirmer.modes.iter().map(|mode| mode.abs()).sum(),
@@ -223,7 +239,10 @@ fn resistance(case: &Case, body: &Body) -> f64 {
 /// none.
 fn excess_mass(case: &Case, body: &Body) -> f64 {
     let volume = body.shape.volume_in(case.geometry);
-    (body.density.unwrap_or(case.fluid.density) - case.fluid.density) * volume
+    match body.mass {
+        Some(mass) => mass - case.fluid.density * volume,
+        None => (body.density.unwrap_or(case.fluid.density) - case.fluid.density) * volume,
+    }
 }
 
 /// Weight less buoyancy and force on a body (N; N/m planar).

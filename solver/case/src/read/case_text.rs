@@ -85,7 +85,8 @@ fn no_case_in(directory: &str) -> CaseError {
 
 /// There is no case of that name.
 pub fn no_such_case(name: &str) -> CaseError {
-    let known: Vec<&str> = library::list().iter().map(|case| case.name).collect();
+    let all = library::list().iter().chain(library::soft());
+    let known: Vec<&str> = all.map(|case| case.name).collect();
     let near = several_nearest(name, &known);
     let mut help = match near.len() {
         0 => String::new(),

@@ -18,13 +18,19 @@ struct ShippedFile {
     bytes: &'static [u8],
 }
 
-// `SHIPPED: &[Shipped]`, by name, and `FILES: &[ShippedFile]`; written by build.rs.
+// `SHIPPED: &[Shipped]` and `SOFT: &[Shipped]`, by name, and `FILES: &[ShippedFile]`; written by build.rs.
 include!(concat!(env!("OUT_DIR"), "/shipped_cases.rs"));
 
-/// All shipped cases, by name.
+/// All shipped cases of the full solver, by name.
 #[must_use]
 pub fn list() -> &'static [Shipped] {
     SHIPPED
+}
+
+/// The shipped cases of the soft tier, by name.
+#[must_use]
+pub fn soft() -> &'static [Shipped] {
+    SOFT
 }
 
 /// The content of a file that is shipped beside the file of a case, or beside that of another one as
@@ -43,7 +49,7 @@ pub fn file_beside(case_file: &str, name: &str) -> Option<&'static [u8]> {
 /// The shipped case of that name.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Shipped> {
-    SHIPPED.iter().find(|case| case.name == name)
+    SHIPPED.iter().chain(SOFT).find(|case| case.name == name)
 }
 
 #[cfg(test)]

@@ -8,13 +8,15 @@
 
 pub(crate) mod case_text;
 pub mod library;
+mod outline_file;
 pub(crate) mod problem_keys;
-mod read_mesh;
+pub(crate) mod read_mesh;
 pub(crate) mod recording;
 mod reference_rows;
 mod reference_table;
 pub(crate) mod schema;
 mod stroke_file;
+mod surface_file;
 mod typing;
 mod variants;
 
@@ -88,6 +90,22 @@ impl CaseFile {
         numbers
     }
 
+    /// The number that is written at a dotted path, if there is one.
+    #[must_use]
+    pub fn number(&self, path: &str) -> Option<f64> {
+        match self.root.get(path)?.value {
+            TomlValue::Float(value) => Some(value),
+            TomlValue::Integer(value) => Some(value as f64),
+            _ => None,
+        }
+    }
+
+    /// The keys of all numbers that are written, but for those of variants.
+    #[must_use]
+    pub fn number_keys(&self) -> Vec<String> {
+        self.numbers().into_iter().map(|number| number.path).collect()
+    }
+
     /// Name and variant: `sphere-in-tube/free-0.5`.
     #[must_use]
     pub fn full_name(&self) -> String {
@@ -137,7 +155,7 @@ impl Case {
     }
 }
 
-fn collect_numbers(node: &TomlNode, path: String, numbers: &mut Vec<WrittenNumber>) {
+pub(crate) fn collect_numbers(node: &TomlNode, path: String, numbers: &mut Vec<WrittenNumber>) {
     match &node.value {
         TomlValue::Float(value) => numbers.push(WrittenNumber { path, value: *value }),
         TomlValue::Integer(value) => {
@@ -161,7 +179,7 @@ fn collect_numbers(node: &TomlNode, path: String, numbers: &mut Vec<WrittenNumbe
 #[derive(Debug, Clone)]
 pub(crate) struct UntypedCase {
     /// Name, and name of the file.
-    names: [String; 2],
+    pub names: [String; 2],
     variant: Option<String>,
     variants: Vec<String>,
     /// The case, without its sweep.
@@ -216,9 +234,11 @@ impl UntypedCase {
         if let Some(sweep) = &self.sweep {
             spec::read(sweep).map_err(wrong)?;
         }
+        outline_file::resolve(&mut self.root).map_err(wrong)?;
         stroke_file::resolve(&mut self.root).map_err(wrong)?;
         let mut case = typed(&self.root)?;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;
+        surface_file::read_into(&mut case, &self.root).map_err(wrong)?;
         complete_periodic(&mut case);
         complete_cylinders(&mut case);
         let model = Model::new(case).map_err(|error| located(&self.root, error))?;
@@ -236,7 +256,7 @@ impl UntypedCase {
 }
 
 /// Where the value at a dotted path is written, or the table it would stand in.
-fn location(root: &TomlNode, path: &str) -> Option<Location> {
+pub(crate) fn location(root: &TomlNode, path: &str) -> Option<Location> {
     let Found { node, is_exact } = root.find(path);
     // A default is nowhere: its table is the next best location, by its header or its key.
     let is_value = is_exact && (node.table().is_none() || node.is_inline());

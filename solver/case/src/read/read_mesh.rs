@@ -100,13 +100,15 @@ fn checksum(bytes: &[u8]) -> String {
 }
 
 /// Why a file cannot be read, and what would help.
-struct Unreadable {
-    message: String,
-    help: String,
+pub(crate) struct Unreadable {
+    /// What is wrong.
+    pub message: String,
+    /// What would help.
+    pub help: String,
 }
 
 /// The content of a file named at some place.
-fn bytes_of(file: &str, origin: &Origin) -> Result<Vec<u8>, Unreadable> {
+pub(crate) fn bytes_of(file: &str, origin: &Origin) -> Result<Vec<u8>, Unreadable> {
     let unreadable = |message: String, help: &str| Unreadable { message, help: help.to_owned() };
     let Some(directory) = &origin.source.directory else {
         return library::file_beside(&origin.source.name, file).map(<[u8]>::to_vec).ok_or_else(

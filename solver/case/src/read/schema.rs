@@ -97,10 +97,11 @@ mod tests {
         if let Some(keys) = file.as_object_mut() {
             keys.retain(|key, _| key != "$schema" && key != "title");
         }
-        if let Some(strokes) = schema["$defs"]["Stroke"]["oneOf"].as_array_mut() {
+        for name in ["Stroke", "TimeFunction"] {
+            let Some(strokes) = schema["$defs"][name]["oneOf"].as_array_mut() else { continue };
             strokes.push(json!({
                 "type": "object",
-                "properties": { "file": file },
+                "properties": { "file": &file },
                 "required": ["file"],
                 "additionalProperties": false,
             }));

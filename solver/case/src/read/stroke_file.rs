@@ -11,7 +11,7 @@ use crate::text::tree::{TomlNode, TomlValue, TreeError};
 use crate::text::type_error::{KNOTS_OF_A_FILE, TypeError, suggestion};
 
 /// Tables of a case with strokes in them.
-const TABLES: [&str; 4] = ["body", "joint", "swimmer", "field"];
+const TABLES: [&str; 5] = ["body", "joint", "swimmer", "field", "flow"];
 
 /// What is asked of the times of a file.
 const TIMES: &str = "times must rise from row to row, the first at 0 or before, the last at the end \
@@ -28,6 +28,54 @@ pub struct FileStroke {
     pub time: String,
     /// Name of the column with the values.
     pub column: String,
+    /// What they are multiplied by.
+    #[serde(default)]
+    pub scale: Option<f64>,
+    /// 1, or -1 where the column counts the other way round.
+    #[serde(default)]
+    pub sign: Option<i64>,
+    /// What is added to them then, in the unit of the column.
+    #[serde(default)]
+    pub offset: Option<f64>,
+    /// Unit of angles in the column.
+    #[serde(default)]
+    pub unit: Option<AngleUnit>,
+}
+
+/// Unit of a column of angles.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, schemars(inline))]
+#[serde(rename_all = "lowercase")]
+pub enum AngleUnit {
+    /// Radians.
+    Rad,
+    /// Degrees.
+    Deg,
+    /// Whole turns.
+    Turn,
+}
+
+impl FileStroke {
+    /// A value of the column as it is meant.
+    fn value(&self, written: f64) -> f64 {
+        let mut value = written;
+        // What is not written changes no bit
+        if let Some(scale) = self.scale {
+            value *= scale;
+        }
+        if self.sign == Some(-1) {
+            value = -value;
+        }
+        if let Some(offset) = self.offset {
+            value += offset;
+        }
+        match self.unit {
+            None | Some(AngleUnit::Rad) => value,
+            Some(AngleUnit::Deg) => value.to_radians(),
+            Some(AngleUnit::Turn) => value * std::f64::consts::TAU,
+        }
+    }
 }
 
 /// Puts the values of files in the place of their names, so that a case stands for itself.
@@ -66,11 +114,21 @@ fn resolve_below(node: &mut TomlNode, path: &str) -> Result<(), TreeError> {
 /// The knots of a stroke `cubic` that a file stands for.
 fn knots(file: &TomlNode, path: &str) -> Result<TomlNode, TreeError> {
     let asked = FileStroke::deserialize(file).map_err(|error| mistyped(file, error, path))?;
+    if let Some(sign) = asked.sign.filter(|sign| sign.abs() != 1) {
+        let origin = file.get("sign").map_or(&file.origin, |node| &node.origin).clone();
+        let message = format!("`sign` is {sign}, and a sign is 1 or -1");
+        return Err(TreeError {
+            origin,
+            message,
+            help: "write other factors as scale = ...".into(),
+        });
+    }
     let table = CsvTable::read(file, &asked)?;
     let times = table.column(&asked.time, "time", file)?;
     let values = table.column(&asked.column, "column", file)?;
     table.check_lengths()?;
-    let points = table.points(times, values)?;
+    let mut points = table.points(times, values)?;
+    points.iter_mut().for_each(|point| point[1] = asked.value(point[1]));
     let node = |value| TomlNode { key: file.key.clone(), origin: file.origin.clone(), value };
     let slopes = natural_slopes(&points);
     let knot = |([time, value], slope): (&[f64; 2], f64)| {

@@ -20,7 +20,8 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
             || key.contains(".directions.")
             || is_value_of(key, ".bent.angle.");
         // What turns in time may turn more than once
-        let looks_like_degrees = if is_value_of(key, ".turn.") {
+        let may_turn = is_value_of(key, ".turn.") || is_value_of(key, ".rotation.imposed.");
+        let looks_like_degrees = if may_turn {
             value.abs() >= 30.0 && value % 15.0 == 0.0
         } else {
             is_angle && value.abs() > TAU * (1.0 + ROUNDING)
@@ -31,7 +32,7 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
                 format!("`{key}` is {value}: angles are in radians, and this is more than a turn"),
                 // Columns of a file, which become cubic polynomials, are numbers
                 &if key.contains(".cubic.") {
-                    format!("for {value} degrees write {}", significant(value.to_radians()))
+                    "for a column in degrees write unit = \"deg\" in `file`".to_owned()
                 } else {
                     format!("for {value} degrees write \"{value} deg\"")
                 },

@@ -105,10 +105,11 @@ fn met(error: &MeshError) -> String {
 /// Whether all places of a body are known beforehand.
 fn is_known(model: &Model, body: &Body) -> bool {
     // Of other shapes the centre of mass, about which they turn, is not where the centre is
-    let is_ellipse = matches!(body.shape, ShapeSpec::Ellipse { .. });
-    let turns_about_center = is_ellipse && model.case.geometry == Geometry::Planar;
+    let is_ellipse = matches!(body.shape, ShapeSpec::Ellipse { .. } | ShapeSpec::Box { .. });
+    let is_centred = body.center_of_mass.iter().all(|part| *part == 0.0);
+    let turns_about_center = is_ellipse && is_centred && model.case.geometry == Geometry::Planar;
     match &body.motion {
-        Motion::Free => false,
+        Motion::Free | Motion::ByAxis(_) => false,
         Motion::Held => !body.deforms(),
         Motion::Imposed(_) => {
             !body.deforms() && (body.is_round() || turns_about_center || !body.turns())
@@ -199,7 +200,8 @@ impl Course<'_> {
             let (min, period) = (extent.min[axis], extent.lengths()[axis]);
             moved.center[axis] = min + (moved.center[axis] - min).rem_euclid(period);
         }
-        moved.angle += way * motion.angular_velocity.z();
+        let turn = motion.factor_of_turn().map_or(time, |factor| factor.integral(time));
+        moved.angle += turn * motion.angular_velocity.z();
         moved
     }
 

@@ -140,9 +140,11 @@ fn unit_quaternion(parts: &[f64; 4]) -> String {
 fn refuse_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let tilts =
         matches!(&body.motion, Motion::Imposed(imposed) if imposed.angular_velocity.tilts());
-    for (name, is_given) in
-        [("torque", body.torque.tilts()), ("motion.imposed.angular_velocity", tilts)]
-    {
+    for (name, is_given) in [
+        ("torque", body.torque.tilts()),
+        ("angular_velocity", body.angular_velocity.tilts()),
+        ("motion.imposed.angular_velocity", tilts),
+    ] {
         if is_given {
             findings.error(
                 &format!("{key}.{name}"),

@@ -6,7 +6,7 @@ use super::body::command::Command;
 use super::formula::Formula;
 use super::mesh_file::MeshFile;
 #[cfg(test)]
-use crate::spec::number::{FormulaPerDimension, NonZero, PerDimension, Positive};
+use crate::spec::number::{FormulaPerDimension, NonNegative, NonZero, PerDimension, Positive};
 
 /// Dimension and symmetry of the problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -144,15 +144,29 @@ pub enum TimeFunction {
         /// Phase (periods).
         #[serde(default)]
         phase: f64,
+        /// Time over which the amplitude grows from 0, twice continuously differentiable (s); 0 for
+        /// the full amplitude from the start.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        #[cfg_attr(test, schemars(with = "NonNegative"))]
+        ramp: f64,
     },
     /// Straight lines between (time, value) knots, constant outside them.
     Table(Vec<[f64; 2]>),
+    /// Cubic polynomials between (time, value, rate) knots, which cover the run; what the columns of
+    /// a file become.
+    Cubic(Vec<[f64; 3]>),
     /// What a session or a recording asks for while the run goes on.
     Command(Command),
 }
 
 fn one() -> f64 {
     1.0
+}
+
+/// Whether a ramp is not written.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 /// What holds on a side of the domain.

@@ -13,7 +13,7 @@ pub(crate) mod initial;
 pub(crate) mod mesh;
 pub(crate) mod mesh_file;
 #[cfg(test)]
-mod number;
+pub mod number;
 pub(crate) mod output;
 pub(crate) mod time;
 mod time_function;

@@ -39,6 +39,10 @@ schemas! {
     Fraction = {
         "type": "number", "format": "double", "exclusiveMinimum": 0, "exclusiveMaximum": 1
     };
+    /// Above 0 and up to 180.
+    Degrees = {
+        "type": "number", "format": "double", "exclusiveMinimum": 0, "maximum": 180
+    };
     /// From 0 to 1.
     UpToOne = { "type": "number", "format": "double", "minimum": 0, "maximum": 1 };
     /// Between -1 and 1.

@@ -119,6 +119,9 @@ pub struct Probe {
     /// Where (m), one number per dimension.
     #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub point: Vec<f64>,
+    /// The body it rides on, in whose frame its points are; those of the laboratory if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
     /// A second point whose values are subtracted (m).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(test, schemars(with = "PerDimension"))]

@@ -2,7 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::TimeFunction;
+use crate::spec::body::stroke::cubic_at;
+use crate::{Stroke, TimeFunction, smooth_ramp};
 
 impl TimeFunction {
     /// Its value at a time (s). Inlined, as this package is compiled to read files, not to compute.
@@ -14,10 +15,16 @@ impl TimeFunction {
             Self::SmoothRamp { duration } => {
                 (1.0 - (PI * (time / duration).clamp(0.0, 1.0)).cos()) / 2.0
             }
-            Self::Sine { mean, amplitude, period, phase } => {
-                mean + amplitude * (TAU * (time / period + phase)).sin()
+            Self::Sine { mean, amplitude, period, phase, ramp } => {
+                let wave = (TAU * (time / period + phase)).sin();
+                if *ramp > 0.0 {
+                    mean + amplitude * smooth_ramp(time, *ramp)[0] * wave
+                } else {
+                    mean + amplitude * wave
+                }
             }
             Self::Table(knots) => table_at(knots, time),
+            Self::Cubic(knots) => cubic_at(knots, time)[0],
             Self::Command(command) => command.at(time)[0],
         }
     }
@@ -31,9 +38,28 @@ impl TimeFunction {
                 0.5 * (time - duration / PI * (PI * time / duration).sin())
             }
             Self::Ramp { duration } | Self::SmoothRamp { duration } => time - 0.5 * duration,
-            Self::Sine { mean, amplitude, period, phase } => {
+            Self::Sine { mean, amplitude, period, phase, ramp } => {
                 let cosine = |time: f64| (TAU * (time / period + phase)).cos();
-                mean * time + amplitude * period / TAU * (cosine(0.0) - cosine(time))
+                let from = ramp.min(time).max(0.0);
+                let full = mean * time + amplitude * period / TAU * (cosine(from) - cosine(time));
+                if from == 0.0 {
+                    return full;
+                }
+                let wave =
+                    |time: f64| smooth_ramp(time, *ramp)[0] * (TAU * (time / period + phase)).sin();
+                let n = (PANELS * (1.0 + from / period)).ceil();
+                full + amplitude * simpson(wave, [0.0, from], n)
+            }
+            Self::Cubic(knots) => {
+                let within = |t: f64| t.clamp(0.0, time);
+                let (first, last) = (knots.first().map(|k| k[0]), knots.last().map(|k| k[0]));
+                let ends = [Some(0.0), first.map(within), last.map(within), Some(time)];
+                let mut times: Vec<f64> = knots.iter().map(|knot| within(knot[0])).collect();
+                times.extend(ends.into_iter().flatten());
+                times.sort_by(f64::total_cmp);
+                let pieces = times.windows(2).filter(|pair| pair[1] > pair[0]);
+                // Exact of cubic polynomials
+                pieces.map(|p| simpson(|t| cubic_at(knots, t)[0], [p[0], p[1]], 1.0)).sum()
             }
             Self::Table(knots) => {
                 let (Some([first, low]), Some([last, high])) = (knots.first(), knots.last()) else {
@@ -53,8 +79,12 @@ impl TimeFunction {
     pub fn largest_integral(&self, end: f64) -> f64 {
         match self {
             Self::Ramp { .. } | Self::SmoothRamp { .. } => end,
-            Self::Sine { mean, amplitude, period, .. } => {
-                mean.abs() * end + amplitude.abs() * period / PI
+            Self::Sine { mean, amplitude, period, ramp, .. } => {
+                mean.abs() * end + amplitude.abs() * (period / PI + ramp)
+            }
+            Self::Cubic(knots) => {
+                let [least, most] = Stroke::Cubic(knots.clone()).range();
+                end * least.abs().max(most.abs())
             }
             Self::Table(knots) => {
                 let values = knots.iter().map(|[_, value]| value.abs());
@@ -66,6 +96,23 @@ impl TimeFunction {
             }
         }
     }
+}
+
+/// Intervals in a period in which a function is integrated.
+const PANELS: f64 = 32.0;
+
+/// The integral of a function between two times by Simpson's rule in `n` intervals.
+fn simpson(function: impl Fn(f64) -> f64, [from, to]: [f64; 2], n: f64) -> f64 {
+    let width = (to - from) / n;
+    let mut sum = 0.0;
+    let mut nth = 0.0;
+    while nth < n {
+        let start = from + nth * width;
+        let middle = function(start + 0.5 * width);
+        sum += width / 6.0 * (function(start) + 4.0 * middle + function(start + width));
+        nth += 1.0;
+    }
+    sum
 }
 
 /// The integral of a straight line between two knots from time 0 to a time (s), as far as it goes.
@@ -98,7 +145,8 @@ mod tests {
         assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 0.5), 0.25);
         assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 5.0), 1.0);
         assert!((at(&TimeFunction::SmoothRamp { duration: 2.0 }, 1.0) - 0.5).abs() < 1e-15);
-        let sine = |phase| TimeFunction::Sine { mean: 1.0, amplitude: 2.0, period: 4.0, phase };
+        let sine =
+            |phase| TimeFunction::Sine { mean: 1.0, amplitude: 2.0, period: 4.0, phase, ramp: 0.0 };
         assert!((at(&sine(0.0), 1.0) - 3.0).abs() < 1e-15);
         assert!((at(&sine(0.25), 0.0) - 3.0).abs() < 1e-15);
         let table = TimeFunction::Table(vec![[0.0, 1.0], [1.0, 3.0]]);
@@ -113,7 +161,9 @@ mod tests {
         for function in [
             TimeFunction::Ramp { duration: 2.0 },
             TimeFunction::SmoothRamp { duration: 1.5 },
-            TimeFunction::Sine { mean: 0.3, amplitude: 2.0, period: 1.7, phase: 0.1 },
+            TimeFunction::Sine { mean: 0.3, amplitude: 2.0, period: 1.7, phase: 0.1, ramp: 0.0 },
+            TimeFunction::Sine { mean: 0.3, amplitude: 2.0, period: 0.7, phase: 0.1, ramp: 1.6 },
+            TimeFunction::Cubic(vec![[-0.5, 1.0, 0.5], [1.0, 2.0, -3.0], [4.5, 0.0, 1.0]]),
             TimeFunction::Table(table.clone()),
             // Begins before the run
             TimeFunction::Table(table.iter().map(|[time, value]| [time - 0.75, *value]).collect()),

@@ -3,7 +3,7 @@
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 27] = [
+pub const CHOICES: [&str; 32] = [
     "kind",
     "length",
     "angle",
@@ -31,4 +31,9 @@ pub const CHOICES: [&str; 27] = [
     "hold",
     "moment",
     "rest",
+    "angular_factor",
+    "rotation",
+    "x",
+    "y",
+    "z",
 ];

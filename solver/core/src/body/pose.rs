@@ -82,6 +82,16 @@ impl Pose {
         Self { center, orientation: Orientation::Spatial(rotation) }
     }
 
+    /// The pose of the laboratory, in the plane or in space as this one is.
+    #[must_use]
+    pub fn laboratory(&self) -> Self {
+        let orientation = match self.orientation {
+            Orientation::Planar(_) => Orientation::Planar(0.0),
+            Orientation::Spatial(_) => Orientation::Spatial(UnitQuaternion::identity()),
+        };
+        Self { center: Vector3::zeros(), orientation }
+    }
+
     /// Angle of the rotation about z (rad): of a planar pose the one that counts full turns, of a
     /// spatial one that of the image of the x axis, within (-pi, pi].
     #[must_use]

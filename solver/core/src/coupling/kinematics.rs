@@ -9,7 +9,7 @@
 use nalgebra::Vector3;
 
 use super::problem::{FreeArm, Joint, Pivot, Problem, Turn};
-use crate::body::{Mode, Modes, Pose};
+use crate::body::{Mode, Modes, Pose, RigidVector, Twist};
 
 /// A rigid velocity of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,7 +74,8 @@ impl<const D: usize> Problem<D> {
     /// The bodies, each after the one it hangs on. Circles of joints are refused with the case.
     pub(super) fn parents_first(&self) -> Vec<usize> {
         let depth = |body: usize| {
-            let parent = |body: &usize| self.bodies[*body].joint.as_ref().map(|joint| joint.parent);
+            let parent =
+                |body: &usize| self.bodies[*body].joint.as_ref().and_then(|joint| joint.parent);
             std::iter::successors(Some(body), parent).take(self.bodies.len()).count()
         };
         let mut order: Vec<usize> = (0..self.bodies.len()).collect();
@@ -90,7 +91,7 @@ impl<const D: usize> Problem<D> {
         }
         for body in self.parents_first() {
             let Some(joint) = &self.bodies[body].joint else { continue };
-            let parent = poses[joint.parent];
+            let parent = joint.parent_pose(poses, body);
             let known = match &joint.turn {
                 Turn::Given { axis, angle } => Some((axis, angle(time)[0])),
                 // In the plane there is but one axis
@@ -108,6 +109,27 @@ impl<const D: usize> Problem<D> {
         }
     }
 
+    /// The velocities of the bodies at time zero, at these poses: those that are free as they start, others as they
+    /// are given or follow. `None` where all that is free starts at rest.
+    #[must_use]
+    pub fn initial_twists(&self, poses: &[Pose]) -> Option<Vec<Twist>> {
+        if self.bodies.iter().all(|body| body.initial == Twist::default()) {
+            return None;
+        }
+        let independent = |of: &RigidUnknown| {
+            let body = &self.bodies[of.body];
+            body.drive(of.mode).given(0.0).unwrap_or_else(|| body.initial.component(of.mode))
+        };
+        let velocity = |row: &RigidRow| {
+            let entries = row.entries.iter();
+            row.value + entries.map(|(of, weight)| weight * independent(of)).sum::<f64>()
+        };
+        let twist = |rows: &RigidRows| {
+            Twist::from_vector(&RigidVector::from_fn(|index, _| velocity(&rows[index])))
+        };
+        Some(self.rigid_rows(poses, 0.0).iter().map(twist).collect())
+    }
+
     /// The rigid velocities of all bodies by those that are independent.
     pub(super) fn rigid_rows(&self, poses: &[Pose], time: f64) -> Vec<RigidRows> {
         let modes = self.modes();
@@ -116,24 +138,28 @@ impl<const D: usize> Problem<D> {
             .collect();
         for body in self.parents_first() {
             let Some(joint) = &self.bodies[body].joint else { continue };
-            let parent = &poses[joint.parent];
+            let parent = &joint.parent_pose(poses, body);
+            let of_parent = match joint.parent {
+                Some(above) => rows[above].clone(),
+                None => std::array::from_fn(|_| RigidRow::default()),
+            };
             match &joint.turn {
                 Turn::Given { axis, angle } => {
                     let axis = parent.to_world(axis);
                     for mode in modes.rotations() {
-                        rows[body][mode] = rows[joint.parent][mode].clone();
+                        rows[body][mode] = of_parent[mode].clone();
                         rows[body][mode].value += angle(time)[1] * axis[mode.axis()];
                     }
                 }
                 Turn::Free(Pivot { axis: Some(axis), .. }) if D == 3 => {
                     let axis = parent.to_world(axis);
-                    turn_about(&axis, &mut rows, [joint.parent, body]);
+                    turn_about(&axis, &mut rows, &of_parent, body);
                 }
                 Turn::Free(_) => {}
             }
             let levers = Levers::new(joint, [parent, &poses[body]], time);
             let mut translations: [RigidRow; D] = std::array::from_fn(|axis| {
-                joined_row([&rows[joint.parent], &rows[body]], &levers, modes, axis)
+                joined_row([&of_parent, &rows[body]], &levers, modes, axis)
             });
             if let Some(FreeArm { arm, .. }) = joint.free_arm() {
                 slide_along(&parent.to_world(&arm.along), &mut translations, body);
@@ -148,13 +174,13 @@ impl<const D: usize> Problem<D> {
 
 /// The angular velocity of a child that turns freely about an axis fixed to its parent (in the world):
 /// omega_child = omega_parent + q axis, q from the component of omega_child where the axis is longest.
-fn turn_about(axis: &Vector3<f64>, rows: &mut [RigidRows], [parent, child]: [usize; 2]) {
+fn turn_about(axis: &Vector3<f64>, rows: &mut [RigidRows], parent: &RigidRows, child: usize) {
     let longest = axis.iamax();
     let free = Mode::about(longest);
-    let rate = RigidRow::independent(child, free).plus(&rows[parent][free], -1.0);
+    let rate = RigidRow::independent(child, free).plus(&parent[free], -1.0);
     for mode in Modes::SPATIAL.rotations().filter(|mode| *mode != free) {
         let weight = axis[mode.axis()] / axis[longest];
-        rows[child][mode] = rows[parent][mode].clone().plus(&rate, weight);
+        rows[child][mode] = parent[mode].clone().plus(&rate, weight);
     }
 }
 

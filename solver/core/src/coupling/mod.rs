@@ -25,16 +25,17 @@ pub use error::{SolveError, coordinates};
 pub use flexible_equation::FlexibleEquation;
 pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{
-    BodyLoads, BodyStates, JointReport, LoadedBodies, MeanMotion, PropulsionPower, ResidualOnMesh,
-    SideFlow, SurfaceLoads, SurfaceStress, group_load, joint_reports, mean_motion,
-    propulsion_power, surface_loads,
+    BodyLoads, BodyStates, JointReport, LoadDerivatives, LoadWeights, LoadedBodies, MeanMotion,
+    PropulsionPower, ResidualOnMesh, SideFlow, SurfaceLoads, SurfaceStress, group_load,
+    joint_reports, load_derivatives, mean_motion, propulsion_power, surface_loads,
 };
 pub use mean_flow::MeanFlowReport;
 pub use problem::{
     Arm, AttachedCoordinate, Attachment, BodyVector, Drive, FieldPart, Group, Joint, JointLaw,
-    Length, LocalField, Magnet, MagneticField, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue,
-    OnBody, Pivot, PressureProfile, Problem, RateDiscontinuities, RigidBody, Side, Spring,
-    TimeValue, Turn, UniformField, VelocityProfile, angle_about, coordinate_ranges, second_moments,
+    Length, Lever, LocalField, Magnet, MagneticField, MeanFlow, MeanFlowAlong, MeanFlowAt,
+    MovingValue, OnBody, Pivot, PressureProfile, Problem, RateDiscontinuities, RigidBody, Side,
+    Spring, TimeValue, Turn, UniformField, VelocityProfile, angle_about, coordinate_ranges,
+    second_moments,
 };
 pub use projection::DivergenceFreeProjection;
 pub use rigid_equations::{

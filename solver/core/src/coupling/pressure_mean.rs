@@ -42,4 +42,13 @@ impl PressureMean {
             *pressure -= mean;
         }
     }
+
+    /// The derivative by a pressure from that by what [`Self::center`] makes of it.
+    pub(super) fn before_centering(&self, derivative: &mut [f64]) {
+        let volume: f64 = self.weights.iter().sum();
+        let by_level: f64 = derivative.iter().sum();
+        for (value, weight) in derivative.iter_mut().zip(&self.weights) {
+            *value -= by_level * weight / volume;
+        }
+    }
 }

@@ -163,6 +163,24 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         Ok(velocity.iter().zip(&correction).map(|(velocity, part)| velocity + part).collect())
     }
 
+    /// The divergence-free velocity of least kinetic energy with the boundary values of a velocity (m/s at the
+    /// nodes): what an impulse makes of fluid at rest (Kelvin).
+    ///
+    /// # Errors
+    /// As [`Self::project`].
+    pub fn potential_flow(
+        &mut self,
+        mesh: &Mesh<D>,
+        velocity: &[Point<D>],
+    ) -> Result<Vec<Point<D>>, LinearError> {
+        let pressure = vec![0.0; self.layout.n_vertices];
+        let fields = Fields { velocity, pressure: &pressure };
+        let raw = residual(&self.assembly, mesh, &terms(1.0), &fields);
+        let momentum = |node| Point::<D>::from_fn(|axis, _| -raw[self.layout.velocity(node, axis)]);
+        let to_rest: Vec<Point<D>> = self.layout.nodes().map(momentum).collect();
+        self.project_with(mesh, velocity, &to_rest)
+    }
+
     /// The same with an integral over the fluid (m4/s; m3/s planar), as far as boundaries leave that open: along periods
     /// neither they nor the divergence determine the momentum, and boundary values that are held change it.
     ///

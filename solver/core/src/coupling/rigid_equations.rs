@@ -35,12 +35,12 @@ pub struct RigidBodyEquation {
     pub resistance: RigidVector,
     /// Load from outside (N, N m).
     pub external: RigidVector,
-    /// Torque per angular velocity by which a magnetic field turns its body in a step (N m s/rad).
+    /// Torque per angular velocity by which a magnetic field or buoyancy turns its body in a step (N m s/rad).
     pub magnetic: Option<Matrix3<f64>>,
 }
 
 impl RigidBodyEquation {
-    /// Adds the torque of a field by a stiffness (N m/rad) where the velocity that is expected has led to a turn, and
+    /// Adds the torque of a field or of buoyancy by a stiffness (N m/rad) where the velocity that is expected has led to a turn, and
     /// a velocity adds `coefficient` (s) times itself.
     fn add_turning(&mut self, stiffness: &Matrix3<f64>, led: &RigidVector, coefficient: f64) {
         let turned = stiffness * led.fixed_rows::<3>(3);
@@ -50,7 +50,7 @@ impl RigidBodyEquation {
         self.magnetic = Some(stiffness * coefficient);
     }
 
-    /// Torque on the magnet against an angular velocity about an axis, by one about another (N m s/rad).
+    /// Torque of field and buoyancy against an angular velocity about an axis, by one about another (N m s/rad).
     pub(super) fn magnetic_resistance(&self, one: Mode, other: Mode) -> Option<f64> {
         let is_turn = one.is_rotation() && other.is_rotation();
         let of_axes = |resistance: Matrix3<f64>| resistance[(one.axis(), other.axis())];
@@ -64,8 +64,8 @@ impl RigidBodyEquation {
 pub struct JointLoad {
     /// The body that hangs.
     pub child: usize,
-    /// The body it hangs on.
-    pub parent: usize,
+    /// The body it hangs on, if it is one.
+    pub parent: Option<usize>,
     /// Rate of the coordinate by velocities of the child.
     pub on_child: RigidVector,
     /// Rate of the coordinate by velocities of the parent.
@@ -79,8 +79,8 @@ pub struct JointLoad {
 impl JointLoad {
     /// The rate of the coordinate at rigid velocities.
     fn rate(&self, twists: &[Twist]) -> f64 {
-        let [child, parent] = [self.child, self.parent].map(|body| twists[body].to_vector());
-        self.on_child.dot(&child) + self.on_parent.dot(&parent)
+        let parent = self.parent.map_or(0.0, |body| self.on_parent.dot(&twists[body].to_vector()));
+        self.on_child.dot(&twists[self.child].to_vector()) + parent
     }
 }
 
@@ -119,6 +119,11 @@ impl PosesByVelocity<'_> {
     fn way_from(&self, body: usize, rest: &Pose) -> RigidVector {
         let expected = &self.expected[body];
         expected.displacement_from(rest) - self.led_by_velocity(body)
+    }
+
+    /// What the velocity that is expected does to what a joint hangs on.
+    fn led_parent(&self, joint: &Joint) -> RigidVector {
+        joint.parent.map_or_else(RigidVector::zeros, |parent| self.led_by_velocity(parent))
     }
 
     /// What the velocity that is expected does.
@@ -209,8 +214,9 @@ impl RigidBodyEquations {
         }
         for (body, (equation, rigid)) in self.bodies.iter_mut().zip(&problem.bodies).enumerate() {
             equation.external = rigid.external(time, &expected[body]);
-            if let Some(magnet) = rigid.magnet.as_ref().filter(|_| coefficient != 0.0) {
-                let stiffness = magnet.turning_stiffness(time, &expected[body]);
+            if coefficient != 0.0
+                && let Some(stiffness) = rigid.turning_stiffness(time, &expected[body])
+            {
                 equation.add_turning(&stiffness, &reached.led_by_velocity(body), coefficient);
             }
             let Some(spring) = &rigid.spring else { continue };
@@ -222,10 +228,11 @@ impl RigidBodyEquations {
 
     /// Adds the torque of a free pivot: about its axis, or about all.
     fn add_pivot(&mut self, at: JointAt<'_>, reached: PosesByVelocity<'_>) {
-        let (joint, expected) = (at.joint, &reached.expected[at.joint.parent]);
+        let joint = at.joint;
+        let expected = &joint.parent_pose(reached.expected, at.child);
         let Turn::Free(pivot) = &joint.turn else { return };
         let at_rest = expected.composed(&joint.rest);
-        let turned = reached.way_from(at.child, &at_rest) + reached.led_by_velocity(joint.parent);
+        let turned = reached.way_from(at.child, &at_rest) + reached.led_parent(joint);
         let axes = match &pivot.axis {
             Some(axis) => vec![expected.to_world(axis)],
             None => vec![Vector3::x(), Vector3::y(), Vector3::z()],
@@ -241,14 +248,15 @@ impl RigidBodyEquations {
     fn add_free_arm(&mut self, at: JointAt<'_>, reached: PosesByVelocity<'_>) {
         let (joint, child) = (at.joint, at.child);
         let Some(FreeArm { arm, law }) = joint.free_arm() else { return };
-        let poses = [&reached.expected[joint.parent], &reached.expected[child]];
+        let parent = joint.parent_pose(reached.expected, child);
+        let poses = [&parent, &reached.expected[child]];
         let levers = Levers::new(joint, poses, at.time);
         let along = poses[0].to_world(&arm.along);
         let pull =
             |lever: &Vector3<f64>| Wrench { force: along, torque: lever.cross(&along) }.to_vector();
         let (on_child, on_parent) = (pull(&levers.child), -pull(&levers.parent));
         let led = on_child.dot(&reached.led_by_velocity(child))
-            + on_parent.dot(&reached.led_by_velocity(joint.parent));
+            + on_parent.dot(&reached.led_parent(joint));
         let numbers = [joint.length_along(arm, poses) - led, reached.coefficient];
         self.add_joint(at, [on_child, on_parent], law, numbers);
     }
@@ -299,7 +307,9 @@ impl RigidBodyEquations {
             let load = joint.load - joint.resistance * joint.rate(twists);
             for (position, mode) in modes.iter().enumerate() {
                 raw[row(joint.child, position)] -= load * joint.on_child[mode];
-                raw[row(joint.parent, position)] -= load * joint.on_parent[mode];
+                if let Some(parent) = joint.parent {
+                    raw[row(parent, position)] -= load * joint.on_parent[mode];
+                }
             }
         }
     }

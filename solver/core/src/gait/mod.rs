@@ -29,4 +29,4 @@ pub use recoil::RecoilMotion;
 pub use sheet::WavingSheet;
 pub use slender_body::SlenderBody;
 pub use squirmer::Squirmer;
-pub use surface_motion::{Gait, InTime};
+pub use surface_motion::{Gait, GaitAbout, InTime};

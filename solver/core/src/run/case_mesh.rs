@@ -31,6 +31,12 @@ pub trait CaseMesh<const D: usize> {
     /// The vectors (m) by which a mesh repeats around itself, zero first.
     fn images(case: &Case, mesh: &Mesh<D>) -> Vec<Point<D>>;
 
+    /// The nearest points on the surfaces of the bodies of a case at time zero, one function for each.
+    ///
+    /// # Errors
+    /// When a body has no shape.
+    fn nearest_on_bodies(model: &Model) -> Result<Vec<NearestOnBody<D>>, RunError>;
+
     /// What moves the mesh of a saved state.
     ///
     /// # Errors
@@ -41,6 +47,9 @@ pub trait CaseMesh<const D: usize> {
         reference: &Reference<'_, D>,
     ) -> Result<MovingMesh<D>, RunError>;
 }
+
+/// The point of the surface of a body nearest to another one (m).
+pub type NearestOnBody<const D: usize> = Box<dyn Fn(&Point<D>) -> Point<D>>;
 
 /// Makes what moves a mesh, with the bodies at these poses.
 pub(super) type MakeMovingMesh<const D: usize> =

@@ -26,9 +26,10 @@ mod timed_step;
 mod watch;
 
 pub use build::{BodyRecoil, build_problem, motion_settings, recoils, shape_motion, sizing};
-pub use case_mesh::{CaseMesh, Dimension, InitialMesh, build_mesh};
+pub use case_mesh::{CaseMesh, Dimension, InitialMesh, NearestOnBody, build_mesh};
 pub use error::RunError;
 pub use excess::Excess;
+pub use measure::{BodiesInFlow, steady_value};
 pub use prepare::{simulation_on, simulation_with};
 pub use reports::{CycleReport, StepErrorReport};
 pub use resume::{Reference, ResumeError, SavedState, VERSION as STATE_VERSION};

@@ -47,7 +47,8 @@ where
         })?;
         if simulation.moving_mesh.is_none() {
             let mesh = simulation.state.mesh_in_frame();
-            measure.find_probes(&model.case, &mesh, &images(&mesh));
+            let Simulation { problem, state, .. } = &simulation;
+            measure.find_probes(&model.case, problem, state, &images(&mesh));
         }
     }
     Ok(Prepared { simulation, measure })

@@ -1,16 +1,19 @@
 //! What a simulation starts with: its scheme, its mesh, its flow, and the memory it needs.
 
-use alewife_mesh::{Mesh, MeshError};
+use alewife_mesh::{Mesh, MeshError, Point};
 
 use super::RunError;
 use super::free_memory;
 use super::simulation::{Simulation, StepScheme};
+use crate::body::Twist;
 use crate::case::{Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 use crate::coupling::{
-    BodiesAt, BodyShapes, Problem, RigidBodyEquations, SurfaceLoads, memory_estimate,
+    BodiesAt, BodyShapes, Boundaries, BoundaryValues, DivergenceFreeProjection, Problem,
+    RestPlaces, RigidBodyEquations, Solution, SurfaceLoads, impose_boundary_values,
+    memory_estimate,
 };
 use crate::state::InitialLevels;
-use crate::step::{SteadyFlow, SteadyTask, solve_steady};
+use crate::step::{FlowError, SteadyFlow, SteadyTask, solve_steady};
 
 impl<const D: usize> Simulation<D> {
     /// Meshed with straight sides, a sheet has its shape from the beginning, and so has a body with coordinates.
@@ -54,10 +57,39 @@ impl<const D: usize> Simulation<D> {
         RigidBodyEquations::steady(&self.problem, &self.state.poses, 0.0)
     }
 
+    /// Sets bodies in motion, and the fluid as an impulse on them does: without vorticity but on their surfaces.
+    ///
+    fn launch(&mut self, twists: Vec<Twist>) -> Result<(), RunError> {
+        let Self { problem, state, .. } = self;
+        let mesh = &state.mesh;
+        let shapes = BodyShapes::at(&problem.bodies, 0.0)?;
+        let poses = state.in_mesh(&state.poses);
+        let mut solution = Solution { twists, ..state.now.clone() };
+        let values = BoundaryValues {
+            bodies: BodiesAt { poses: &poses, shapes: &shapes },
+            twists: &solution.twists,
+            rates: &solution.rates,
+            rest_places: &RestPlaces::new(),
+            origin: Point::<D>::zeros(),
+        };
+        let boundaries = Boundaries::new(mesh);
+        impose_boundary_values(problem, mesh, &boundaries, &values, &mut solution.velocity);
+        let mut projection = DivergenceFreeProjection::new(problem, mesh);
+        let flow = projection.potential_flow(mesh, &solution.velocity);
+        solution.velocity = flow.map_err(|error| FlowError::from_solve(error.into(), 0, 0.0))?;
+        state.begin(InitialLevels::steady(solution));
+        Ok(())
+    }
+
     /// Solves for the flow an unsteady run starts from.
     pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<StartFlow, RunError> {
         let n_bodies = self.problem.bodies.len();
         let has_inertia = self.problem.has_inertia;
+        let twists = self.problem.initial_twists(&self.state.in_mesh(&self.state.poses));
+        if let Some(twists) = twists.filter(|_| has_inertia) {
+            self.launch(twists)?;
+            return Ok(StartFlow { loads: SurfaceLoads::none(n_bodies), iterations: 1 });
+        }
         // Without inertia the flow has no memory, and is that of the bodies' poses at any time
         if has_inertia && self.problem.initial.is_some() {
             return self.begin_with_given_flow();

@@ -89,14 +89,8 @@ impl<const D: usize> Assembly<D> {
         stride: usize,
         matrices: &mut [f64],
     ) {
-        let local = self.kernel.layout();
-        let n_entries = local.n_local() * local.n_local();
-        self.kernel.matrices(input, cells.clone(), stride, matrices);
-        for facet in self.open_sides.of_cells(&cells) {
-            let start = (facet.cell.index() - cells.start) * stride;
-            let matrix = &mut matrices[start..start + n_entries];
-            self.open_sides.add_to_matrix(facet, input, local, matrix);
-        }
+        let n_entries = self.kernel.layout().n_local().pow(2);
+        self.raw_matrices(input, cells.clone(), stride, matrices);
         let mut raw = Vec::new();
         for (cell, matrix) in cells.zip(matrices.chunks_exact_mut(stride)) {
             if self.folds.is_folded(cell) {
@@ -104,6 +98,24 @@ impl<const D: usize> Assembly<D> {
                 raw.extend_from_slice(&matrix[..n_entries]);
                 self.folds.fold(cell, constraints, &raw, matrix);
             }
+        }
+    }
+
+    /// Overwrites the raw matrices of some cells, each at the beginning of `stride` numbers.
+    fn raw_matrices(
+        &self,
+        input: CellInput<'_, D>,
+        cells: Range<usize>,
+        stride: usize,
+        matrices: &mut [f64],
+    ) {
+        let local = self.kernel.layout();
+        let n_entries = local.n_local() * local.n_local();
+        self.kernel.matrices(input, cells.clone(), stride, matrices);
+        for facet in self.open_sides.of_cells(&cells) {
+            let start = (facet.cell.index() - cells.start) * stride;
+            let matrix = &mut matrices[start..start + n_entries];
+            self.open_sides.add_to_matrix(facet, input, local, matrix);
         }
     }
 
@@ -202,6 +214,44 @@ pub fn residual<const D: usize>(
         |cells, residuals| assembly.residuals(input, cells, residuals),
         |cell, local| {
             for (&raw, value) in assembly.folds.raw_unknowns(cell).iter().zip(local) {
+                total[raw as usize] += value;
+            }
+        },
+    );
+    total
+}
+
+/// The derivative by the raw unknowns of the product of the residual of the terms with weights w, one for each row:
+/// A^T w for the matrix A of the terms, linearised at the fields.
+#[must_use]
+pub fn transposed_product<const D: usize>(
+    assembly: &Assembly<D>,
+    mesh: &Mesh<D>,
+    terms: &FlowTerms<'_, D>,
+    fields: &Fields<'_, D>,
+    weights: &[f64],
+) -> Vec<f64> {
+    let input = CellInput { mesh, terms, fields };
+    let local = assembly.kernel.layout();
+    let n_local = local.n_local();
+    let mut total = vec![0.0; assembly.layout.n_raw()];
+    for_each_cell(
+        mesh.n_cells(),
+        n_local,
+        |cells, products| {
+            let mut matrices = vec![0.0; cells.len() * n_local * n_local];
+            assembly.raw_matrices(input, cells.clone(), n_local * n_local, &mut matrices);
+            let of_cell = matrices.chunks_exact(n_local * n_local);
+            for ((cell, matrix), product) in cells.zip(of_cell).zip(products.chunks_mut(n_local)) {
+                let rows = &assembly.folds.raw_unknowns(cell)[..local.n_fluid()];
+                for (sum, column) in product.iter_mut().zip(matrix.chunks_exact(n_local)) {
+                    let terms = rows.iter().zip(column).map(|(&row, a)| a * weights[row as usize]);
+                    *sum = terms.sum();
+                }
+            }
+        },
+        |cell, product| {
+            for (&raw, value) in assembly.folds.raw_unknowns(cell).iter().zip(product) {
                 total[raw as usize] += value;
             }
         },

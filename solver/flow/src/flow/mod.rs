@@ -12,7 +12,7 @@ mod terms;
 mod tests;
 mod viscosity;
 
-pub use assemble::{Assembly, assemble, pressure_unknowns, residual};
+pub use assemble::{Assembly, assemble, pressure_unknowns, residual, transposed_product};
 pub use local_viscosity::{LocalViscosity, PointViscosity, ViscosityTerm, squared_shear};
 pub use nodal::{nodal_pressure, nodal_vorticity};
 pub use parallel::{for_each_cell, integrate_basis};

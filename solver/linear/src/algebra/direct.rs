@@ -14,7 +14,7 @@ use super::reuse::ReusePolicy;
 use super::solver::{Accuracy, LinearError, LinearSolver};
 use super::vectors::{combine, norm};
 use crate::multifrontal::{Analysis, Factors, Ordering};
-use crate::sparse::{Pattern, SparseMatrix, Unknowns};
+use crate::sparse::{Pattern, Residual, SparseMatrix, Unknowns};
 
 /// Most refinement steps of one solve.
 const MAX_REFINEMENTS: usize = 3;
@@ -151,6 +151,60 @@ impl DirectSolver {
         let hash = || hash_of_values(matrix.values(), |value| value.to_bits());
         self.fingerprints.hash_of(matrix.revision(), hash)
     }
+
+    /// Overwrites a right-hand side with the solution for the transpose of the matrix of the last set-up.
+    ///
+    /// # Errors
+    /// As [`LinearSolver::solve`].
+    pub fn solve_transposed(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &mut [f64],
+    ) -> Result<Accuracy, LinearError> {
+        self.refined(rhs, Factors::solve_transposed, |x, b| matrix.transposed_residual(x, b))
+    }
+
+    /// Solves by a substitution, in place, and refines by what is left of the right-hand side.
+    fn refined(
+        &mut self,
+        rhs: &mut [f64],
+        substitute: impl Fn(&mut Factors, &Analysis, &mut [f64]),
+        residual: impl Fn(&[f64], &[f64]) -> Residual,
+    ) -> Result<Accuracy, LinearError> {
+        if !all_finite(rhs) {
+            return Err(LinearError::NotFinite);
+        }
+        if rhs.iter().all(|value| value.abs() < NOTHING) {
+            rhs.fill(0.0);
+            return Ok(Accuracy::default());
+        }
+        let b = rhs.to_vec();
+        substitute(&mut self.factors, &self.analysis, rhs);
+        let mut accuracy = Accuracy { residual: f64::INFINITY, refinements: 0 };
+        loop {
+            let mut residual = residual(rhs, &b);
+            let relative = residual.relative();
+            if relative.is_nan() || !all_finite(rhs) {
+                return Err(LinearError::NotFinite);
+            }
+            // Refinement that no longer helps has reached rounding.
+            let is_stagnant = relative > 0.5 * accuracy.residual;
+            accuracy.residual = accuracy.residual.min(relative);
+            if is_stagnant || relative <= ROUNDING || accuracy.refinements == MAX_REFINEMENTS {
+                break;
+            }
+            accuracy.refinements += 1;
+            substitute(&mut self.factors, &self.analysis, &mut residual.defect);
+            for (value, correction) in rhs.iter_mut().zip(&residual.defect) {
+                *value += correction;
+            }
+        }
+        tracing::debug!(accuracy.residual, accuracy.refinements, "solved");
+        if accuracy.residual > MAX_RESIDUAL {
+            return Err(LinearError::Inaccurate { residual: accuracy.residual });
+        }
+        Ok(accuracy)
+    }
 }
 
 impl LinearSolver for DirectSolver {
@@ -178,39 +232,7 @@ impl LinearSolver for DirectSolver {
     }
 
     fn solve(&mut self, matrix: &SparseMatrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError> {
-        if !all_finite(rhs) {
-            return Err(LinearError::NotFinite);
-        }
-        if rhs.iter().all(|value| value.abs() < NOTHING) {
-            rhs.fill(0.0);
-            return Ok(Accuracy::default());
-        }
-        let b = rhs.to_vec();
-        self.factors.solve(&self.analysis, rhs);
-        let mut accuracy = Accuracy { residual: f64::INFINITY, refinements: 0 };
-        loop {
-            let mut residual = matrix.residual(rhs, &b);
-            let relative = residual.relative();
-            if relative.is_nan() || !all_finite(rhs) {
-                return Err(LinearError::NotFinite);
-            }
-            // Refinement that no longer helps has reached rounding.
-            let is_stagnant = relative > 0.5 * accuracy.residual;
-            accuracy.residual = accuracy.residual.min(relative);
-            if is_stagnant || relative <= ROUNDING || accuracy.refinements == MAX_REFINEMENTS {
-                break;
-            }
-            accuracy.refinements += 1;
-            self.factors.solve(&self.analysis, &mut residual.defect);
-            for (value, correction) in rhs.iter_mut().zip(&residual.defect) {
-                *value += correction;
-            }
-        }
-        tracing::debug!(accuracy.residual, accuracy.refinements, "solved");
-        if accuracy.residual > MAX_RESIDUAL {
-            return Err(LinearError::Inaccurate { residual: accuracy.residual });
-        }
-        Ok(accuracy)
+        self.refined(rhs, Factors::solve, |x, b| matrix.residual(x, b))
     }
 
     fn solve_with_earlier_set_up(

@@ -1,6 +1,7 @@
 //! Against dense LU on random saddle-point matrices and on those that are hard to eliminate.
 
 mod film;
+mod transposed;
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;

@@ -171,6 +171,22 @@ impl SparseMatrix {
         Residual { defect, size }
     }
 
+    /// The residual of A^T x = b.
+    #[must_use]
+    pub fn transposed_residual(&self, x: &[f64], b: &[f64]) -> Residual {
+        let mut defect = b.to_vec();
+        let mut size: Vec<f64> = b.iter().map(|value| value.abs()).collect();
+        for (row, x) in x.iter().enumerate() {
+            let entries = self.values[self.pattern.entries(row)].iter();
+            for (value, &column) in entries.zip(self.pattern.row(row)) {
+                let term = value * x;
+                defect[column as usize] -= term;
+                size[column as usize] += term.abs();
+            }
+        }
+        Residual { defect, size }
+    }
+
     /// A row of A x and the next, which has entries in the same columns, as the velocities at a node: each
     /// value of x is read once. The bits are those of [`Self::sum_of_terms`].
     #[inline(always)]

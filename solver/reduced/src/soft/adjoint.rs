@@ -40,6 +40,19 @@ pub struct WithGradient {
     pub trajectory: Trajectory,
 }
 
+/// Derivatives of an objective by what it is made of directly.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seeds {
+    /// By the places of all levels.
+    pub places: Vec<Vec<f64>>,
+    /// By the stretches each set of fibres is told, frame by frame.
+    pub targets: Vec<Vec<f64>>,
+    /// By the stiffness of each set of fibres.
+    pub fibre_stiffness: Vec<f64>,
+    /// By the places of all nodes at rest.
+    pub rest: Vec<f64>,
+}
+
 /// The way back through a motion.
 struct Backward<'a, const D: usize> {
     body: &'a SoftBody<D>,
@@ -81,32 +94,76 @@ impl<const D: usize> SoftBody<D> {
         with_shape: bool,
     ) -> Result<WithGradient, SoftError> {
         let trajectory = self.simulate(plan)?;
+        let mut seeds = self.no_seeds(plan);
+        let value = self.add_seeds(&trajectory, objective, 1.0, &mut seeds);
+        let gradient = self.gradient(plan, &trajectory, seeds, with_shape)?;
+        Ok(WithGradient { value, gradient, trajectory })
+    }
+
+    /// Derivatives of what depends on nothing.
+    #[must_use]
+    pub fn no_seeds(&self, plan: &Plan) -> Seeds {
+        let n = self.solid.n_components();
+        Seeds {
+            places: vec![vec![0.0; n]; plan.n_steps() + 1],
+            targets: vec![vec![0.0; self.solid.spec().fibres.len()]; plan.targets.len()],
+            fibre_stiffness: vec![0.0; self.solid.spec().fibres.len()],
+            rest: vec![0.0; n],
+        }
+    }
+
+    /// The objective of a motion; a multiple of its derivatives is added to those there are.
+    pub fn add_seeds(
+        &self,
+        trajectory: &Trajectory,
+        objective: &dyn Objective,
+        factor: f64,
+        seeds: &mut Seeds,
+    ) -> f64 {
         let rest = self.solid.at_rest();
+        let mut value = 0.0;
         let mut by_rest = vec![0.0; rest.len()];
+        for (number, level) in trajectory.levels.iter().enumerate() {
+            let mut by_places = vec![0.0; rest.len()];
+            value += objective.at(number, level, &rest, &mut by_places, &mut by_rest);
+            add(&mut seeds.places[number], factor, &by_places);
+        }
+        add(&mut seeds.rest, factor, &by_rest);
+        value
+    }
+
+    /// The derivatives of an objective by all parameters, from those by what it is made of: goes back through all
+    /// steps of a motion.
+    ///
+    /// # Errors
+    /// [`SoftError::Step`] where a step has no derivative.
+    pub fn gradient(
+        &self,
+        plan: &Plan,
+        trajectory: &Trajectory,
+        seeds: Seeds,
+        with_shape: bool,
+    ) -> Result<Gradient, SoftError> {
         let n_steps = plan.n_steps();
+        let Seeds { places, targets, fibre_stiffness, rest } = seeds;
         let mut back = Backward {
             body: self,
             plan,
-            trajectory: &trajectory,
+            trajectory,
             held: self.solid.held(),
-            places: vec![vec![0.0; rest.len()]; n_steps + 1],
             velocities: vec![vec![0.0; rest.len()]; n_steps + 1],
+            places,
             factor: None,
-            gradient: self.no_gradient(plan, with_shape),
+            gradient: Gradient { targets, fibre_stiffness, ..self.no_gradient(with_shape) },
         };
-        let mut value = 0.0;
-        for (number, level) in trajectory.levels.iter().enumerate() {
-            value += objective.at(number, level, &rest, &mut back.places[number], &mut by_rest);
-        }
         for step in (0..n_steps).rev() {
             let failed = |error| SoftError::Step { step: step + 1, n_steps, error };
             back.step(step).map_err(failed)?;
         }
-        let gradient = back.finish(&by_rest);
-        Ok(WithGradient { value, gradient, trajectory })
+        Ok(back.finish(&rest))
     }
 
-    fn no_gradient(&self, plan: &Plan, with_shape: bool) -> Gradient {
+    fn no_gradient(&self, with_shape: bool) -> Gradient {
         let spec = self.solid.spec();
         let n_points = |curve: fn(&FacetLaw) -> &Curve| {
             self.law.as_ref().map_or(0, |law| curve(law).points().len())
@@ -114,8 +171,8 @@ impl<const D: usize> SoftBody<D> {
         Gradient {
             young: vec![0.0; spec.materials.len()],
             poisson: vec![0.0; spec.materials.len()],
-            fibre_stiffness: vec![0.0; spec.fibres.len()],
-            targets: vec![vec![0.0; spec.fibres.len()]; plan.targets.len()],
+            fibre_stiffness: Vec::new(),
+            targets: Vec::new(),
             drag: vec![0.0; n_points(|law| &law.drag)],
             thrust: vec![0.0; n_points(|law| &law.thrust)],
             shape: vec![0.0; if with_shape { self.solid.n_components() } else { 0 }],

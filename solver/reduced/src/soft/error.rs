@@ -35,15 +35,4 @@ pub enum SoftError {
         /// What is wrong, and what is accepted.
         what: String,
     },
-    /// Bounds of a search and its start do not fit.
-    #[error("{name}: {what}")]
-    Bounds {
-        /// Name of the parameter.
-        name: String,
-        /// What is wrong, and what is accepted.
-        what: String,
-    },
-    /// The method of a search failed otherwise.
-    #[error("the search failed: {0}")]
-    Search(String),
 }

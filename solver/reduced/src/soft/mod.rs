@@ -8,9 +8,9 @@ mod facets;
 mod motion;
 mod objective;
 mod record;
-mod search;
+mod work;
 
-pub use adjoint::{Gradient, WithGradient};
+pub use adjoint::{Gradient, Seeds, WithGradient};
 pub use body::SoftBody;
 pub use curve::Curve;
 pub use error::SoftError;
@@ -18,4 +18,3 @@ pub use facets::FacetLaw;
 pub use motion::{Plan, Trajectory};
 pub use objective::{Markers, Objective, Travel};
 pub use record::{Gaps, Record};
-pub use search::{Bounded, Ended, Evaluated, Found, Search, minimise};

@@ -61,6 +61,11 @@ impl<const D: usize> Mass<D> {
         mass
     }
 
+    /// Gives each node this mass (kg), where it is lumped.
+    pub(super) fn fill(&mut self, mass: f64) {
+        self.values.fill(mass);
+    }
+
     /// Mass times a list of all components.
     pub(super) fn times(&self, all: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; all.len()];

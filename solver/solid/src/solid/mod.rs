@@ -22,5 +22,5 @@ pub use error::SolidError;
 pub use mesh::{Frame, Order, SolidFacet, SolidMesh};
 pub use newton::{Minimiser, Minimum};
 pub use potential::{Inertia, Potential, Way};
-pub use sensitivity::Sensitivity;
+pub use sensitivity::{FibreEnergy, Sensitivity};
 pub use step::{Difference, Level, Motion, Scheme, StepInput};

@@ -9,7 +9,7 @@ use super::cholesky::Factor;
 use super::geometry::{At, MAX_NODES, MAX_UNKNOWNS};
 use super::mesh::Order;
 use super::potential::Potential;
-use crate::material::{Curvature, Lame, Principal, Tensor};
+use crate::material::{Curvature, Fibre, Lame, Principal, Tensor};
 
 /// Derivatives of z . r, where r is the slope of a potential and z a list of all components.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +26,19 @@ pub struct Sensitivity {
     pub shape: Vec<f64>,
     /// By the places of all nodes, inertia aside; empty where the shape was not asked for.
     pub places: Vec<f64>,
+}
+
+/// Energy of fibres with its derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FibreEnergy {
+    /// Energy (J).
+    pub value: f64,
+    /// Its derivatives (N) by all components of places.
+    pub by_places: Vec<f64>,
+    /// Its derivatives (J) by the stretch each set is told.
+    pub by_targets: Vec<f64>,
+    /// Its derivatives (m3) by the stiffness of each set.
+    pub by_stiffness: Vec<f64>,
 }
 
 impl Sensitivity {
@@ -104,7 +117,7 @@ impl<const D: usize> Solid<D> {
                 *sum += at.weight * stress.dot(&rate);
             }
             for (set, fibre) in response.fibres() {
-                let unit = crate::material::Fibre { stiffness: 1.0, ..fibre };
+                let unit = Fibre { stiffness: 1.0, ..fibre };
                 let deformation = response.deformation();
                 found.fibre_stiffness[set] += at.weight * unit.stress(deformation).dot(&rate);
                 found.targets[set] += at.weight * fibre.stress_by_target(deformation).dot(&rate);
@@ -136,6 +149,42 @@ impl<const D: usize> Solid<D> {
             self.add_inertia_of_shape(potential, places, z, &mut found.shape);
         }
         Ok(found)
+    }
+
+    /// The energy of all fibres in a state, told these stretches.
+    #[must_use]
+    pub fn fibre_energy(&self, places: &[f64], targets: &[f64]) -> FibreEnergy {
+        let mut found = FibreEnergy {
+            value: 0.0,
+            by_places: vec![0.0; places.len()],
+            by_targets: vec![0.0; targets.len()],
+            by_stiffness: vec![0.0; targets.len()],
+        };
+        let mut local = [Point::<D>::zeros(); MAX_NODES];
+        for (cell, fibres) in self.fibres_in.iter().enumerate().filter(|(_, all)| !all.is_empty()) {
+            let local = self.gather(cell, places, &mut local);
+            for k in 0..self.points.n_points {
+                let at = self.points.at(cell, k);
+                let deformation = at.deformation(local);
+                for fibre in fibres {
+                    let stiffness = self.spec.fibres[fibre.set].stiffness;
+                    let target = targets[fibre.set];
+                    let one = Fibre { direction: fibre.direction, stiffness, target };
+                    let longer = one.stretch(&deformation) - target;
+                    found.value += at.weight * one.energy(&deformation);
+                    found.by_targets[fibre.set] -= at.weight * stiffness * longer;
+                    found.by_stiffness[fibre.set] += 0.5 * at.weight * longer * longer;
+                    let mut forces = [0.0; MAX_UNKNOWNS];
+                    at.add_forces(&one.stress(&deformation), &mut forces);
+                    for (a, node) in self.nodes_of(cell).iter().enumerate() {
+                        for i in 0..D {
+                            found.by_places[node * D + i] += forces[a * D + i];
+                        }
+                    }
+                }
+            }
+        }
+        found
     }
 
     /// Adds what the masses contribute to the derivatives by the shape at rest.

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 
 use alewife_mesh::Quality;
 
+use crate::case::soft::SoftFile;
 use crate::case::{
     CaseFile, Convection, Diagnostic, FlowModel, Model, Severity, Sweep, TimeSettings,
     number_table, printable, significant,
@@ -13,6 +14,7 @@ use crate::case::{
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::facts::{facts, one_line};
 use crate::cli::read::{CheckedCase, print_warnings, read_and_check};
+use crate::cli::soft;
 use crate::cli::style::{self, Ink, on_stdout, say};
 use crate::cli::sweep::check_points;
 use crate::observer::reset_peak_memory;
@@ -52,6 +54,9 @@ pub fn check(cases: &[String], settings: &[String], depth: Depth) -> Result<Exit
 }
 
 fn check_one(argument: &str, settings: &[String], depth: Depth) -> Result<(), Failure> {
+    if let Some(file) = SoftFile::read_if_soft(argument, settings)? {
+        return soft::check(&file).map(|_| ());
+    }
     let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
     let mut text =
         format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), one_line(&file.case().title));

@@ -7,12 +7,13 @@ use clap::{Args, ValueHint};
 use super::results::{
     print_cell_numbers, print_comparisons, print_last_values, print_run_warnings, print_step_errors,
 };
+use crate::case::soft::SoftFile;
 use crate::case::{CaseFile, TimeSettings, WallTime};
-use crate::cli::complete;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::fidelity::Fidelity;
 use crate::cli::read::{CheckedCase, Settings, print_warnings, read_and_check};
 use crate::cli::style::say;
+use crate::cli::{complete, soft};
 use crate::runner::{self, Finished, Outcome, RunPlan, Stopped};
 use crate::timing::cpu_seconds;
 
@@ -139,7 +140,30 @@ impl Options {
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     match options.fidelity {
         Fidelity::Ale => run_flow(options),
+        Fidelity::Soft => run_soft(options),
     }
+}
+
+/// Runs a case of an elastic body without a flow.
+fn run_soft(options: &Options) -> Result<Exit, Failure> {
+    let asked = [
+        ("--resume", options.resume.is_some()),
+        ("--replay", options.replay.is_some()),
+        ("--continue", options.continues),
+        ("--max-walltime", options.max_walltime.is_some()),
+        ("--live", options.live.is_some()),
+    ];
+    if let Some((name, _)) = asked.iter().find(|(_, is_set)| *is_set) {
+        let message = format!("{name} is of runs of the full solver: a soft case runs in one go");
+        return Err(Failure::new(Exit::Usage, message));
+    }
+    let file = SoftFile::read(&options.case, &options.settings.set)?;
+    let place = soft::Place {
+        out: options.out.clone(),
+        overwrite: options.overwrite,
+        compares: !options.no_references,
+    };
+    soft::run(&file, &place)
 }
 
 /// Runs a case by the full solver.

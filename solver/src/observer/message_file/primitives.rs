@@ -113,6 +113,12 @@ impl Line {
         Self::new(LINE_LIST, points, colour)
     }
 
+    /// The same, moved by a vector (m).
+    pub fn shifted(mut self, shift: &Vector3<f64>) -> Self {
+        self.points.iter_mut().for_each(|point| *point = point.plus(shift));
+        self
+    }
+
     fn new(kind: u8, points: &[Vector3<f64>], color: Colour) -> Self {
         Self {
             kind,
@@ -239,6 +245,11 @@ impl Xyz {
     /// That of a vector.
     pub fn of(vector: &Vector3<f64>) -> Self {
         Self { x: vector.x, y: vector.y, z: vector.z }
+    }
+
+    /// The sum with another one.
+    pub fn plus(self, vector: &Vector3<f64>) -> Self {
+        Self { x: self.x + vector.x, y: self.y + vector.y, z: self.z + vector.z }
     }
 }
 

@@ -45,7 +45,7 @@ pub fn scene<const D: usize>(
 
 /// A body that keeps its shape, in its own frame.
 fn rigid(body: &Body, report: &BodyReport) -> Primitives {
-    let (mut solids, mut lines) = (Solids::default(), vec![]);
+    let (mut solids, mut lines, mut is_placed) = (Solids::default(), vec![], false);
     let centered = Isometry3::identity();
     match &body.shape {
         // A flat cylinder
@@ -58,12 +58,14 @@ fn rigid(body: &Body, report: &BodyReport) -> Primitives {
         | ShapeSpec::Helix(_)
         | ShapeSpec::Curve(_)
         | ShapeSpec::Revolved { .. }
+        | ShapeSpec::Surface(_)
         | ShapeSpec::Union(_) => {
             // The frame is at the centre of mass, the origin of the shape is not
             let from = report.pose.rotation().inverse();
             let origin = from * (body.pose_in_space().translation.vector - report.pose.center);
             let place = Isometry3::translation(origin.x, origin.y, origin.z);
             solids.parts(&place, &body.shape.parts().unwrap_or_default());
+            is_placed = true;
         }
         ShapeSpec::Cylinder { radius, length, .. } => {
             for part in body.shape.parts().unwrap_or_default() {
@@ -71,19 +73,45 @@ fn rigid(body: &Body, report: &BodyReport) -> Primitives {
             }
         }
         ShapeSpec::Spline { .. }
+        | ShapeSpec::Polygon(_)
+        | ShapeSpec::Box { .. }
         | ShapeSpec::Fish(_)
         | ShapeSpec::Flagellate(_)
         | ShapeSpec::Tube(_) => {
             lines.push(Line::closed(&outline(&body.shape), Colour::BODY));
         }
     }
-    let Solids { spheres, cylinders } = solids;
+    let Solids { mut spheres, mut cylinders } = solids;
+    if !body.center_of_mass.is_empty() && !is_placed {
+        let part = |axis: usize| body.center_of_mass.get(axis).copied().unwrap_or(0.0);
+        let shift = centroid(&body.shape) - Vector3::from_fn(|axis, _| part(axis));
+        lines = lines.into_iter().map(|line| line.shifted(&shift)).collect();
+        for solid in spheres.iter_mut().chain(&mut cylinders) {
+            solid.pose.position = solid.pose.position.plus(&shift);
+        }
+    }
     Primitives { lines, spheres, cylinders, ..Primitives::default() }
+}
+
+/// Centroid of a curved outline in the frame of its body (m); the origin of other shapes.
+fn centroid(shape: &ShapeSpec) -> Vector3<f64> {
+    let moments = match shape {
+        ShapeSpec::Spline { .. } => shape.outline().moments(),
+        _ => None,
+    };
+    moments.map_or_else(Vector3::zeros, |moments| {
+        Vector3::new(moments.centroid.x, moments.centroid.y, 0.0)
+    })
 }
 
 /// Points on the curved outline of a body, about its centre of mass (m).
 fn outline(shape: &ShapeSpec) -> Vec<Vector3<f64>> {
     let shape = shape.outline();
+    if let (Shape::Polygon { points }, Some(moments)) = (&shape, shape.moments()) {
+        let about =
+            |[x, y]: &[f64; 2]| Vector3::new(x - moments.centroid.x, y - moments.centroid.y, 0.0);
+        return points.iter().map(about).collect();
+    }
     let spline = match &shape {
         Shape::Spline { points } => Spline::through(points),
         Shape::Curve { spline } => Some(Spline::clone(spline)),

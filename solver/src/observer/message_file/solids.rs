@@ -1,7 +1,9 @@
 //! Solids of a scene as viewers draw them: ellipsoids, and cylinders for tubes and profiles.
 
-use alewife_mesh::spatial::{Centreline, Part, Shape};
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use alewife_mesh::spatial::{Centreline, Part, Shape, SurfaceMoments};
+use nalgebra::{
+    Isometry3, Matrix3, Rotation3, SymmetricEigen, Translation3, UnitQuaternion, Vector3,
+};
 
 use super::primitives::{Colour, Placement, Solid, Xyz, Xyzw};
 
@@ -59,6 +61,9 @@ impl Solids {
                         self.cone(&pose, at, ends.map(|end| end[2].hypot(end[3])));
                     }
                 }
+                Shape::Triangulated(triangles) => {
+                    self.ellipsoid_of(&pose, &triangles.moments());
+                }
                 Shape::Revolved { profile } => {
                     let at = |[x, _]: [f64; 2]| Vector3::new(x, 0.0, 0.0);
                     for pair in profile.windows(2) {
@@ -68,6 +73,22 @@ impl Solids {
                 }
             }
         }
+    }
+
+    /// Draws the ellipsoid with the second moments of a solid.
+    fn ellipsoid_of(&mut self, pose: &Isometry3<f64>, moments: &SurfaceMoments) {
+        let second = Matrix3::identity() * (0.5 * moments.inertia.trace()) - moments.inertia;
+        let mut eigen = SymmetricEigen::new(second / moments.volume);
+        if eigen.eigenvectors.determinant() < 0.0 {
+            let turned = -eigen.eigenvectors.column(0);
+            eigen.eigenvectors.set_column(0, &turned);
+        }
+        let turn = Rotation3::from_matrix_unchecked(eigen.eigenvectors);
+        let turn = UnitQuaternion::from_rotation_matrix(&turn);
+        let own = Isometry3::from_parts(Translation3::from(moments.centroid), turn);
+        // a^2 / 5 of an ellipsoid
+        let semi_axes = eigen.eigenvalues.map(|value| (5.0 * value.max(0.0)).sqrt());
+        self.ellipsoid(&(pose * own), semi_axes.into());
     }
 
     /// A tube through points, with round ends.

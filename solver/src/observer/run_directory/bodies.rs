@@ -69,6 +69,10 @@ pub(in crate::observer) fn joint_ends(model: &Model, joint: &Joint) -> [Vector3<
 
 /// The origin of the frame of a body from that of its shape (m): frames are at centres of mass.
 fn centroid(model: &Model, name: &str) -> Vector3<f64> {
+    let own = model.body_index(name).map(|body| &model.bodies[body].center_of_mass);
+    if let Some(own) = own.filter(|own| !own.is_empty()) {
+        return Vector3::from_fn(|axis, _| own.get(axis).copied().unwrap_or(0.0));
+    }
     let body = model.body_index(name).filter(|_| model.case.geometry.dimensions() == 2);
     let moments = body.and_then(|body| model.bodies[body].shape.outline().moments());
     moments.map_or_else(Vector3::zeros, |moments| {
@@ -96,7 +100,9 @@ fn bodies(model: &Model) -> Bodies<'_> {
         let bodies = members.iter().map(|&member| model.bodies[member].name.as_str()).collect();
         swimmers.push(Swimmer { name, bodies });
     }
-    let joints = model.joints.iter().enumerate().map(|(nth, joint)| {
+    let joined = model.joints.iter().enumerate();
+    let joined = joined.filter(|(_, joint)| !model.hangs_on_laboratory(joint));
+    let joints = joined.map(|(nth, joint)| {
         let [on_parent, on_child] = joint_ends(model, joint).map(Into::into);
         let Joint { parent, child, kind, .. } = joint;
         let made_for = model.swimmer_of_joint(nth).and_then(|_| model.body_index(child));

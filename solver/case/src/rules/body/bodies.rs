@@ -3,11 +3,14 @@
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-use super::{gait, rod, solid, spring};
+use super::motion::{by_axis, initial, mass};
+use super::{gait, polygon, rod, solid, spring, surface};
 use crate::rules::Findings;
 use crate::rules::flow::boundary::check_factor;
+use crate::spec::body::given::polygon::signed_area;
 use crate::text::names::{LONGEST_NAME, is_word};
-use crate::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
+use crate::text::type_error::suggestion;
+use crate::{Body, GaitSpec, Geometry, Lock, Motion, Probe, ShapeSpec};
 
 /// Largest difference between a heading and the axis that is taken for rounding (rad).
 const HEADING_ROUNDING: f64 = 1e-3;
@@ -35,6 +38,9 @@ pub fn check(findings: &mut Findings<'_>) {
         check_shape(findings, &format!("{key}.shape"), &body.shape);
         check_density(findings, &key, body);
         check_motion(findings, &key, body);
+        by_axis::check(findings, index, body);
+        initial::check(findings, index, body);
+        mass::check(findings, index, body);
         spring::check(findings, &key, body);
         gait::check(findings, &key, body);
         rod::check(findings, &key, body);
@@ -47,6 +53,29 @@ pub fn check(findings: &mut Findings<'_>) {
         let is_taken = taken.contains_key(probe.name.as_str());
         check_name(findings, &format!("probe.{index}.name"), &probe.name, is_taken);
         taken.insert(&probe.name, usize::MAX);
+        check_rider(findings, &format!("probe.{index}.body"), probe);
+    }
+}
+
+/// A probe rides on a body that has a frame.
+fn check_rider(findings: &mut Findings<'_>, key: &str, probe: &Probe) {
+    let Some(name) = &probe.body else { return };
+    let model = findings.model();
+    match model.body_index(name).map(|body| &model.bodies[body]) {
+        None => {
+            let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+            findings.error(
+                key,
+                format!("`body` is \"{name}\", but no body has that name"),
+                &suggestion(name, &names),
+            );
+        }
+        Some(body) if body.rod.is_some() => findings.error(
+            key,
+            format!("\"{name}\" is a rod, and has no frame that a probe could ride in"),
+            "leave `body` out, or put the probe on a rigid body",
+        ),
+        Some(_) => {}
     }
 }
 
@@ -124,6 +153,8 @@ pub(crate) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
         ShapeSpec::Union(parts) => {
             solid::check_parts(findings, &format!("{key}.union"), parts, check_shape);
         }
+        ShapeSpec::Surface(shape) => surface::check(findings, &format!("{key}.surface"), shape),
+        ShapeSpec::Polygon(shape) => polygon::check(findings, &format!("{key}.polygon"), shape),
         ShapeSpec::Spline { points } if points.len() > 2 && signed_area(points) <= 0.0 => {
             findings.error(
                 &format!("{key}.spline.points"),
@@ -153,30 +184,23 @@ fn check_density(findings: &mut Findings<'_>, key: &str, body: &Body) {
     }
 }
 
-/// Area of a polygon (m2), positive if its corners run counter-clockwise.
-fn signed_area(points: &[[f64; 2]]) -> f64 {
-    let n = points.len();
-    let twice: f64 = (0..n)
-        .map(|i| {
-            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % n]);
-            ax * by - bx * ay
-        })
-        .sum();
-    0.5 * twice
-}
-
 fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
     if let Motion::Imposed(imposed) = &body.motion {
         let motion = format!("{key}.motion.imposed");
-        if let Some(factor) = &imposed.factor {
-            check_factor(findings, &format!("{motion}.factor"), factor);
+        for (what, factor) in
+            [("factor", &imposed.factor), ("angular_factor", &imposed.angular_factor)]
+        {
+            if let Some(factor) = factor {
+                check_factor(findings, &format!("{motion}.{what}"), factor);
+            }
         }
     }
     if let Some(factor) = &body.load_factor {
         check_factor(findings, &format!("{key}.load_factor"), factor);
     }
     let all: &[Lock] = findings.case().geometry.motions();
-    if body.motion == Motion::Free && all.iter().all(|lock| body.locked.contains(lock)) {
+    let is_locked = all.iter().all(|lock| body.locked.contains(lock));
+    if body.motion == Motion::Free && is_locked && body.driven.is_empty() {
         findings.warning(
             &format!("{key}.locked"),
             format!("\"{}\" is free, but all its motions are locked", body.name),
@@ -238,11 +262,14 @@ fn check_on_axis(findings: &mut Findings<'_>, key: &str, body: &Body) {
             );
         }
     };
+    let across = |values: &[f64]| values.get(1).copied().unwrap_or(0.0);
     zero("center.1", body.center[1], "the distance from the axis");
+    zero("center_of_mass.1", across(&body.center_of_mass), "the centre of mass off the axis");
     zero("angle", body.angle, "the angle");
     zero("torque", body.torque.z(), "the torque");
-    let across = |values: &[f64]| values.get(1).copied().unwrap_or(0.0);
     zero("force.1", across(&body.force), "the force across the axis");
+    zero("velocity.1", across(&body.velocity), "the velocity across the axis");
+    zero("angular_velocity", body.angular_velocity.z(), "the rotation");
     if let Motion::Imposed(imposed) = &body.motion {
         let velocity = across(&imposed.velocity);
         zero("motion.imposed.velocity.1", velocity, "the velocity across the axis");

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::joints_in_space::{direction, place_of_child};
 use crate::rules::Findings;
 use crate::rules::command::check_command;
-use crate::spec::body::joint::{PlanarPose, child_pose};
+use crate::spec::body::joint::{LABORATORY, PlanarPose, child_pose};
 use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Slider, Stroke, TimeSettings};
 
 /// Distance between a child and where its joint puts it, over the size of the joint, that is taken
@@ -15,6 +15,7 @@ const ROUNDING: f64 = 1e-6;
 pub fn check(findings: &mut Findings<'_>) {
     let model = findings.model();
     let mut parents: Vec<Option<usize>> = vec![None; model.bodies.len()];
+    let mut is_joined = vec![false; model.bodies.len()];
     let mut attached = Vec::new();
     for (index, joint) in model.joints.iter().enumerate() {
         let key = format!("joint.{index}");
@@ -25,10 +26,10 @@ pub fn check(findings: &mut Findings<'_>) {
             }
         }
         let Some(ends) = ends(findings, &key, joint) else { continue };
-        if parents[ends.child].is_some() || ends.parent == ends.child {
+        if is_joined[ends.child] || ends.parent == Some(ends.child) {
             findings.error(
                 &format!("{key}.child"),
-                if ends.parent == ends.child {
+                if ends.parent == Some(ends.child) {
                     format!("\"{}\" hangs on itself", joint.child)
                 } else {
                     let above = parents[ends.child].map(|parent| &model.bodies[parent].name);
@@ -42,7 +43,8 @@ pub fn check(findings: &mut Findings<'_>) {
             );
             continue;
         }
-        parents[ends.child] = Some(ends.parent);
+        parents[ends.child] = ends.parent;
+        is_joined[ends.child] = true;
         attached.push((index, ends));
     }
     // Within a loop no body is where its joint puts it
@@ -55,7 +57,7 @@ pub fn check(findings: &mut Findings<'_>) {
             let (key, joint) = (format!("joint.{index}"), &model.joints[index]);
             motion_of_child(findings, &key, joint, ends);
             if findings.case().geometry == Geometry::Spatial {
-                place_of_child(findings, &key, joint, [ends.parent, ends.child]);
+                place_of_child(findings, &key, joint, ends.parent, ends.child);
             } else {
                 pose_of_child(findings, &key, joint, ends);
             }
@@ -82,10 +84,10 @@ fn loop_of_joints(findings: &mut Findings<'_>, bodies: &[usize]) {
     );
 }
 
-/// Indices of the bodies a joint is between.
+/// Indices of the bodies a joint is between; no parent where the child hangs on the laboratory.
 #[derive(Clone, Copy)]
 struct Ends {
-    parent: usize,
+    parent: Option<usize>,
     child: usize,
 }
 
@@ -94,7 +96,10 @@ fn ends(findings: &mut Findings<'_>, key: &str, joint: &Joint) -> Option<Ends> {
     let mut end = |what: &str, name: &str| {
         let body = model.body_index(name);
         if body.is_none() {
-            let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+            let mut names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+            if what == "parent" {
+                names.push(LABORATORY);
+            }
             findings.error(
                 &format!("{key}.{what}"),
                 format!("`{what}` is \"{name}\", but no body has that name"),
@@ -103,8 +108,11 @@ fn ends(findings: &mut Findings<'_>, key: &str, joint: &Joint) -> Option<Ends> {
         }
         body
     };
+    if model.hangs_on_laboratory(joint) {
+        return Some(Ends { parent: None, child: end("child", &joint.child)? });
+    }
     let (parent, child) = (end("parent", &joint.parent), end("child", &joint.child));
-    Some(Ends { parent: parent?, child: child? })
+    Some(Ends { parent: Some(parent?), child: child? })
 }
 
 fn motion_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: Ends) {
@@ -122,7 +130,8 @@ fn motion_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: 
 
 /// The child starts where the joint puts it.
 fn pose_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: Ends) {
-    let [parent, found] = [ends.parent, ends.child].map(|body| start(findings.model(), body));
+    let parent = ends.parent.map(|body| start(findings.model(), body)).unwrap_or_default();
+    let found = start(findings.model(), ends.child);
     let [on_parent, on_child] = joint.ends_in_plane();
     // What is free may start at any angle and length: those of the bodies
     let kind = match &joint.kind {
@@ -136,7 +145,9 @@ fn pose_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: En
         kind => kind.clone(),
     };
     let wanted = child_pose(parent, on_parent, on_child, &kind, 0.0);
+    let reach = findings.model().bodies[ends.child].shape.reach();
     let size = (wanted.center - parent.center).norm();
+    let size = if ends.parent.is_none() { size.max(reach) } else { size };
     let off = (wanted.center - found.center).norm();
     if off > ROUNDING * size {
         findings.error(
@@ -277,7 +288,7 @@ pub(crate) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
 }
 
 /// Knots with rates: nothing is said of what is before the first or after the last one.
-fn cubic(findings: &mut Findings<'_>, key: &str, knots: &[[f64; 3]]) {
+pub(crate) fn cubic(findings: &mut Findings<'_>, key: &str, knots: &[[f64; 3]]) {
     let is_rising = knots.len() > 1 && knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
     let (Some([first, ..]), Some([last, ..]), true) = (knots.first(), knots.last(), is_rising)
     else {

@@ -31,12 +31,17 @@ pub(crate) fn place_of_child(
     findings: &mut Findings<'_>,
     key: &str,
     joint: &Joint,
-    ends: [usize; 2],
+    parent: Option<usize>,
+    child: usize,
 ) {
-    let [parent, child] = ends.map(|body| findings.model().bodies[body].pose_in_space());
+    let body = &findings.model().bodies[child];
+    let (child, reach) = (body.pose_in_space(), body.shape.reach());
+    let of_parent = parent.map(|parent| findings.model().bodies[parent].pose_in_space());
+    let parent = of_parent.unwrap_or_else(nalgebra::Isometry3::identity);
     let wanted = joint.child_center(&parent, &child);
     let found = child.translation.vector;
     let size = (wanted - parent.translation.vector).norm();
+    let size = if of_parent.is_none() { size.max(reach) } else { size };
     // Written so that what is no number is left to the checks of numbers
     if (wanted - found).norm() > ROUNDING * size {
         let list =

@@ -9,9 +9,9 @@ use super::body::joints::start;
 use crate::model::speed::{norm, weight};
 use crate::text::diagnostic::{Diagnostic, Severity};
 use crate::{
-    Body, BoundaryCondition, CaseFile, DomainSpec, Formula, GaitSpec, Geometry, Hold, Joint,
-    JointKind, LoadFrame, Lock, MeanFlowSpec, Model, Motion, Orientation, ShapeSpec, Stroke,
-    TimeFunction, TimeSettings,
+    Body, BoundaryCondition, CaseFile, DomainSpec, Driven, DrivenLaw, Formula, GaitSpec, Geometry,
+    Hold, Joint, JointKind, LoadFrame, Lock, MeanFlowSpec, Model, Motion, Orientation, ShapeSpec,
+    Stroke, TimeFunction, TimeSettings,
 };
 
 /// Length over that of a body, or angle (rad), below which a spring is at rest.
@@ -24,7 +24,7 @@ pub fn at_rest(file: &CaseFile) -> Option<Diagnostic> {
         severity: Severity::Warning,
         key: String::new(),
         message: "nothing drives this case: all is at rest and stays there".to_owned(),
-        help: "give a body a load, a density other than the fluid's with gravity, a gait or an imposed \
+        help: "give a body a load, a velocity, a density other than the fluid's with gravity, a gait or an imposed \
              motion, a side a velocity, a magnetic moment a field, joints a stroke, a motor or a spring that is not at rest, or \
              the fluid a `flow`"
             .to_owned(),
@@ -121,9 +121,17 @@ fn gait_drives(body: &Body) -> bool {
 }
 
 fn motion_drives(body: &Body) -> bool {
-    let Motion::Imposed(motion) = &body.motion else { return false };
-    let moves = any(&motion.velocity) || !motion.angular_velocity.is_zero();
-    moves && acts(motion.factor.as_ref())
+    let Motion::Imposed(motion) = &body.motion else {
+        let is_driven = |driven: &Driven| match &driven.law {
+            DrivenLaw::Way(stroke) => moves(stroke),
+            DrivenLaw::Rate(rate) => rate.value != 0.0 && acts(rate.factor.as_ref()),
+        };
+        return any(&body.velocity)
+            || !body.angular_velocity.is_zero()
+            || body.driven.iter().any(is_driven);
+    };
+    (any(&motion.velocity) && acts(motion.factor.as_ref()))
+        || (!motion.angular_velocity.is_zero() && acts(motion.factor_of_turn()))
 }
 
 /// Whether a field acts on a body that is free; where it would take more than a case to know, it may move it.
@@ -148,8 +156,12 @@ fn rod_drives(body: &Body) -> bool {
 fn spring_drives(body: &Body) -> bool {
     let Some(spring) = &body.spring else { return false };
     // Of other shapes the centre of mass, which the anchor is compared with, may be elsewhere
-    let is_centred = body.shape.semi_axes().is_some()
-        || matches!(body.shape, ShapeSpec::Disc { .. } | ShapeSpec::Ellipse { .. });
+    let is_symmetric = matches!(
+        body.shape,
+        ShapeSpec::Disc { .. } | ShapeSpec::Ellipse { .. } | ShapeSpec::Box { .. }
+    );
+    let is_centred =
+        !any(&body.center_of_mass) && (body.shape.semi_axes().is_some() || is_symmetric);
     let is_stretched = |(axis, anchor): (usize, &f64)| {
         let center = body.center.get(axis).copied().unwrap_or(0.0);
         let is_stiff = spring.stiffness.get(axis).is_some_and(|stiffness| *stiffness != 0.0);
@@ -172,17 +184,19 @@ fn is_pulled(model: &Model, body: usize) -> bool {
     let (case, own) = (&model.case, &model.bodies[body]);
     let (is_heavy, is_given) = (weight(case, own) != 0.0, acts(own.load_factor.as_ref()));
     let is_pushed = is_given && any(&own.force);
-    let is_twisted = is_given && !own.torque.is_zero();
+    let is_buoyant = case.fluid.density != 0.0 && any(&case.fluid.gravity);
+    let is_twisted =
+        (is_given && !own.torque.is_zero()) || (is_buoyant && any(&own.center_of_mass));
     if !(is_heavy || is_pushed || is_twisted) {
         return false;
     }
     let mut root = body;
     while let Some(above) = model.joint_above(root) {
         let joint = &model.joints[above];
-        let Some(parent) = model.body_index(&joint.parent) else { return true };
         if joint.kind.stroke().is_none() {
             return true;
         }
+        let Some(parent) = model.body_index(&joint.parent) else { return false };
         root = parent;
     }
     let holder = &model.bodies[root];

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::given_mesh;
 use crate::model::region::{normal_axis, opposite};
 use crate::rules::Findings;
+use crate::rules::body::joints::cubic;
 use crate::rules::command::check_command;
 use crate::spec::formula::numbers;
 use crate::text::type_error::suggestion;
@@ -208,6 +209,9 @@ pub(crate) fn check_factor(findings: &mut Findings<'_>, key: &str, factor: &Time
                 "write table = [[t0, f0], [t1, f1], ...] with t0 < t1 < ...",
             );
         }
+    }
+    if let TimeFunction::Cubic(knots) = factor {
+        cubic(findings, &format!("{key}.cubic"), knots);
     }
     if let TimeFunction::Command(command) = factor {
         check_command(findings, &format!("{key}.command"), command);

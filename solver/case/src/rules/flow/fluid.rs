@@ -41,7 +41,10 @@ pub fn check(findings: &mut Findings<'_>) {
     let mut bodies = findings.model().bodies.iter();
     if pulls
         && fluid.density == 0.0
-        && bodies.any(|body| body.motion == Motion::Free && body.density.unwrap_or(0.0) > 0.0)
+        && bodies.any(|body| {
+            let own = body.mass.or(body.density).unwrap_or(0.0);
+            body.motion == Motion::Free && own > 0.0
+        })
     {
         findings.warning(
             "fluid.gravity",

@@ -93,7 +93,7 @@ fn is_held(body: &Body, axis: usize) -> bool {
     let lock = [Lock::X, Lock::Y, Lock::Z][axis];
     match &body.motion {
         Motion::Free => body.locked.contains(&lock),
-        Motion::Held | Motion::Imposed(_) => true,
+        Motion::Held | Motion::Imposed(_) | Motion::ByAxis(_) => true,
     }
 }
 

@@ -37,7 +37,8 @@ fn report(findings: &mut Findings<'_>, arrangement: &impl Arrangement) {
         for (name, point) in [("point", Some(&probe.point)), ("minus", minus)] {
             let key = format!("probe.{index}.{name}");
             let Some(point) = point.filter(|point| findings.is_vector(point)) else { continue };
-            check_probe(findings, &key, arrangement, point, misplaced.is_empty());
+            let point = findings.model().probe_point(probe, point);
+            check_probe(findings, &key, arrangement, &point, misplaced.is_empty());
         }
     }
 }

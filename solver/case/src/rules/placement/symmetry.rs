@@ -32,7 +32,7 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body, side: &str,
     let name = &body.name;
     match &body.motion {
         Motion::Held => {}
-        Motion::Free => findings.error(
+        Motion::Free | Motion::ByAxis(_) => findings.error(
             key,
             format!("\"{name}\" is free, and the plane of symmetry `{side}` cuts it"),
             REMEDY,

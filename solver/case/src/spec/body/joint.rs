@@ -8,16 +8,19 @@ use super::stroke::Stroke;
 #[cfg(test)]
 use crate::spec::number::{Direction, NonNegative, PerDimension};
 
+/// What stands for the laboratory, to which bodies may be joined, as a parent.
+pub(crate) const LABORATORY: &str = "laboratory";
+
 /// `[[joint]]`: the child is joined to the parent; bodies and joints make trees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
-    /// Name of the body it is joined to.
+    /// Name of the body it is joined to, or "laboratory".
     pub parent: String,
     /// Name of the body that is joined to it.
     pub child: String,
-    /// Where the joint is on the parent, in its frame (m); its origin if absent.
+    /// Where the joint is on the parent, in its frame (m), or in the laboratory; its origin if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub on_parent: Vec<f64>,

@@ -93,9 +93,18 @@ impl Link {
             | ShapeSpec::Helix(_)
             | ShapeSpec::Curve(_)
             | ShapeSpec::Revolved { .. }
+            | ShapeSpec::Surface(_)
             | ShapeSpec::Union(_) => {
                 let half = shape.reach();
                 Ok(LinkExtent { back: -half, front: half, half_width: shape.half_width() })
+            }
+            ShapeSpec::Polygon(_) | ShapeSpec::Box { .. } => {
+                let points = shape.points();
+                let most = |part: fn(&[f64; 2]) -> f64| {
+                    points.iter().map(part).fold(f64::NEG_INFINITY, f64::max)
+                };
+                let half_width = 0.5 * (most(|[_, y]| *y) + most(|[_, y]| -y));
+                Ok(LinkExtent { back: -most(|[x, _]| -x), front: most(|[x, _]| *x), half_width })
             }
             ShapeSpec::Spline { .. }
             | ShapeSpec::Fish(_)

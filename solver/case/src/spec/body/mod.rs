@@ -3,8 +3,10 @@
 pub(crate) mod axial_vector;
 pub(crate) mod command;
 pub(crate) mod gait;
+pub(crate) mod given;
 pub(crate) mod joint;
 pub(crate) mod link;
+pub(crate) mod motion;
 pub(crate) mod orientation;
 pub(crate) mod rod;
 mod shape_names;
@@ -23,11 +25,16 @@ use self::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
 };
+use self::given::polygon::PolygonShape;
+use self::given::surface::SurfaceShape;
+use self::motion::by_axis::Driven;
+use self::motion::inertia::InertiaSpec;
+use self::motion::{LoadFrame, Lock, Motion};
 use self::orientation::Orientation;
 use self::rod::{Activation, Attached, RodSpec};
 use self::spring::SpringSpec;
 use self::squirmer::SquirmerGait;
-use super::domain::{Geometry, TimeFunction};
+use super::domain::TimeFunction;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, NonZero, PerDimension, Positive};
 
@@ -56,6 +63,16 @@ pub enum ShapeSpec {
         /// Points counter-clockwise in the body frame (m), the first not repeated.
         #[cfg_attr(test, schemars(length(min = 3)))]
         points: Vec<[f64; 2]>,
+    },
+    /// Polygon with sharp corners (planar).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    Polygon(PolygonShape),
+    /// Rectangle with sharp corners (planar).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    Box {
+        /// Lengths along the body's x and y (m).
+        #[cfg_attr(test, schemars(with = "[Positive; 2]"))]
+        size: [f64; 2],
     },
     /// Fish (planar, spatial).
     #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
@@ -122,6 +139,9 @@ pub enum ShapeSpec {
         #[cfg_attr(test, schemars(length(min = 3)))]
         profile: Vec<[f64; 2]>,
     },
+    /// Solid by the triangles of its surface (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
+    Surface(SurfaceShape),
     /// All points of several parts, such as a head and a flagellum (spatial).
     #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Union(#[cfg_attr(test, schemars(length(min = 1)))] Vec<PartSpec>),
@@ -199,83 +219,6 @@ pub struct PartSpec {
     pub orientation: Option<Orientation>,
 }
 
-/// How a body moves as a whole.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Motion {
-    /// It does not move.
-    Held,
-    /// It obeys Newton and Euler under the fluid's load, gravity and external loads.
-    Free,
-    /// Its velocity is given; the reaction is an output.
-    Imposed(ImposedMotion),
-}
-
-/// A rigid velocity given as a function of time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct ImposedMotion {
-    /// Velocity (m/s), one number per dimension.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[cfg_attr(test, schemars(with = "PerDimension"))]
-    pub velocity: Vec<f64>,
-    /// Angular velocity (rad/s): counter-clockwise in planar cases, [x, y, z] in space.
-    #[serde(default, skip_serializing_if = "AxialVector::is_zero")]
-    pub angular_velocity: AxialVector,
-    /// Factor in time for both.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub factor: Option<TimeFunction>,
-}
-
-/// A motion a free body may not make.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Lock {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
-    /// Along z.
-    Z,
-    /// Turning, about any axis.
-    Rotation,
-}
-
-impl Geometry {
-    /// Motions of a free body, each of which may be locked.
-    #[must_use]
-    pub fn motions(self) -> &'static [Lock] {
-        match self {
-            Self::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
-            Self::Axisymmetric => &[Lock::X],
-            Self::Spatial => &[Lock::X, Lock::Y, Lock::Z, Lock::Rotation],
-        }
-    }
-}
-
-/// `load_frame`: axes along which the external force and torque of a body are given.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
-pub enum LoadFrame {
-    /// Those of the laboratory.
-    #[default]
-    Laboratory,
-    /// Those of the body, with which the load turns.
-    Body,
-}
-
-impl LoadFrame {
-    /// Whether it is that of the laboratory.
-    #[must_use]
-    pub fn is_laboratory(&self) -> bool {
-        *self == Self::Laboratory
-    }
-}
-
 /// How a swimmer's surface moves by itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -321,11 +264,35 @@ pub struct Body {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
     pub density: Option<f64>,
+    /// Mass (kg; kg/m planar), in place of the density times what the shape encloses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
+    pub mass: Option<f64>,
+    /// Moment of inertia about the centre of mass (kg m2; kg m planar): a number in planar cases, in space those
+    /// about x, y and z of the body, [xx, yy, zz], or the whole tensor; that of its mass spread evenly if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
+    pub inertia: Option<InertiaSpec>,
+    /// Centre of mass in the frame of the body (m), one number per dimension; that of its shape if absent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
+    pub center_of_mass: Vec<f64>,
     /// How it moves as a whole.
     pub motion: Motion,
     /// Motions a free body may not make.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub locked: Vec<Lock>,
+    /// Those of the motions that are locked whose rate is given; made from `motion` only.
+    #[serde(skip)]
+    pub driven: Vec<Driven>,
+    /// Velocity of a free body at time zero (m/s), one number per dimension; unsteady runs with inertia.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(with = "PerDimension"))]
+    pub velocity: Vec<f64>,
+    /// Angular velocity of a free body at time zero (rad/s): counter-clockwise in planar cases, [x, y, z] in
+    /// space.
+    #[serde(default, skip_serializing_if = "AxialVector::is_zero")]
+    pub angular_velocity: AxialVector,
     /// Surface motion of a swimmer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gait: Option<GaitSpec>,

@@ -10,6 +10,8 @@ impl ShapeSpec {
             Self::Disc { .. } => "disc",
             Self::Ellipse { .. } => "ellipse",
             Self::Spline { .. } => "spline",
+            Self::Polygon(_) => "polygon",
+            Self::Box { .. } => "box",
             Self::Fish(_) => "fish",
             Self::Flagellate(_) => "flagellate",
             Self::Tube(_) => "tube",
@@ -21,6 +23,7 @@ impl ShapeSpec {
             Self::Helix(_) => "helix",
             Self::Curve(_) => "curve",
             Self::Revolved { .. } => "revolved",
+            Self::Surface(_) => "surface",
             Self::Union(_) => "union",
         }
     }

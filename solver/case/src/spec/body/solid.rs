@@ -118,6 +118,7 @@ impl ShapeSpec {
             Self::Fish(_) | Self::Flagellate(_) => {
                 one(Shape::Slender(Arc::new(Slender::new(self.sections()?))))
             }
+            Self::Surface(surface) => one(Shape::Triangulated(Arc::clone(surface.solid()?))),
             Self::Union(parts) => {
                 let mut all = Vec::new();
                 for part in parts {

@@ -103,16 +103,7 @@ impl Stroke {
                     (None, None) => [0.0, 0.0],
                 }
             }
-            Self::Cubic(knots) => {
-                // The outer ones go on: the last step may end beyond its knot by rounding
-                let last = knots.len().saturating_sub(1);
-                let after = knots.partition_point(|knot| knot[0] <= time).min(last).max(1);
-                match (knots.get(after - 1), knots.get(after)) {
-                    (Some(before), Some(after)) => Cubic::between(*before, *after).at(time),
-                    (Some([_, value, rate]), None) => [*value, *rate],
-                    _ => [0.0, 0.0],
-                }
-            }
+            Self::Cubic(knots) => cubic_at(knots, time),
             Self::Command(command) => command.at(time),
         }
     }
@@ -191,6 +182,19 @@ fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| {
         [least.min(value), most.max(value)]
     })
+}
+
+/// Value and rate at a time of cubic polynomials between knots.
+#[must_use]
+pub(crate) fn cubic_at(knots: &[[f64; 3]], time: f64) -> [f64; 2] {
+    // The outer ones go on: the last step may end beyond its knot by rounding
+    let last = knots.len().saturating_sub(1);
+    let after = knots.partition_point(|knot| knot[0] <= time).min(last).max(1);
+    match (knots.get(after - 1), knots.get(after)) {
+        (Some(before), Some(after)) => Cubic::between(*before, *after).at(time),
+        (Some([_, value, rate]), None) => [*value, *rate],
+        _ => [0.0, 0.0],
+    }
 }
 
 /// The cubic polynomial with given values and rates at two times:

@@ -76,6 +76,17 @@ impl SystemSolver for DirectSystem {
         solved(solver, matrix, rhs, reduction, timing).map(drop)
     }
 
+    fn solve_transposed(
+        &mut self,
+        rhs: &mut [f64],
+        timing: &mut Timing,
+    ) -> Result<(), LinearError> {
+        let Self { matrix, unknowns, solver, .. } = self;
+        let solver = analysed(solver, matrix, unknowns, timing);
+        let solve = |solver: &mut DirectSolver| solver.solve_transposed(matrix, rhs);
+        set_up_and(solve, solver, matrix, timing).map(drop)
+    }
+
     fn inverse_of(
         &mut self,
         rigid: &[usize],

@@ -8,6 +8,9 @@ use crate::algebra::{
 };
 use crate::timing::{Stage, Timing};
 
+/// Part of the right-hand side that iterations for an adjoint flow leave.
+const ADJOINT: f64 = 1e-9;
+
 /// A matrix by blocks with the solver that iterates with it.
 pub(super) struct IterativeSystem {
     matrix: SaddleMatrix,
@@ -106,6 +109,14 @@ impl SystemSolver for IterativeSystem {
     ) -> Result<(), LinearError> {
         let Self { matrix, solver, .. } = self;
         solved(prepared(solver), matrix, rhs, reduction, timing).map(drop)
+    }
+
+    fn solve_transposed(
+        &mut self,
+        rhs: &mut [f64],
+        timing: &mut Timing,
+    ) -> Result<(), LinearError> {
+        self.solve(rhs, Some(ADJOINT), timing)
     }
 
     fn inverse_of(

@@ -70,6 +70,14 @@ pub(in super::super) trait SystemSolver: Send + Sync {
         timing: &mut Timing,
     ) -> Result<(), LinearError>;
 
+    /// Solves with the transpose of the matrix, in place: by its factors, or where the solver iterates as if it were
+    /// symmetric.
+    ///
+    /// # Errors
+    /// When the matrix is singular or the solution not finite.
+    fn solve_transposed(&mut self, rhs: &mut [f64], timing: &mut Timing)
+    -> Result<(), LinearError>;
+
     /// The block of the inverse in the rows and columns of some rigid velocities, column by column.
     ///
     /// # Errors

@@ -57,8 +57,9 @@ pub fn joint_reports<const D: usize>(
         let Some(joint) = &problem.bodies[child].joint else { continue };
         let Wrench { force, torque } = carried[child];
         reports.push(report(joint, child, &carried[child], now));
-        let way = now.poses[child].center - now.poses[joint.parent].center;
-        let parent = &mut carried[joint.parent];
+        let Some(above) = joint.parent else { continue };
+        let way = now.poses[child].center - now.poses[above].center;
+        let parent = &mut carried[above];
         parent.force += force;
         parent.torque += torque + way.cross(&force);
     }
@@ -68,16 +69,18 @@ pub fn joint_reports<const D: usize>(
 
 /// A joint through which this load comes, about the centre of the child.
 fn report(joint: &Joint, child: usize, load: &Wrench, now: &BodyStates<'_>) -> JointReport {
-    let (time, parent) = (now.shapes.time(), joint.parent);
+    let time = now.shapes.time();
+    let parent = &joint.parent_pose(now.poses, child);
+    let of_parent = joint.parent.map_or_else(Twist::default, |above| now.twists[above]);
     if let Some(arm) = &joint.arm {
-        let along = now.poses[parent].to_world(&arm.along);
-        let poses = [&now.poses[parent], &now.poses[child]];
+        let along = parent.to_world(&arm.along);
+        let poses = [parent, &now.poses[child]];
         let [length, rate] = match &arm.length {
             Length::Given(length) => length(time),
             Length::Free(_) => {
                 let levers = Levers::new(joint, poses, time);
-                let [on_parent, on_child] = [(parent, levers.parent), (child, levers.child)]
-                    .map(|(body, lever)| now.twists[body].velocity_at(&lever));
+                let twists = [(of_parent, levers.parent), (now.twists[child], levers.child)];
+                let [on_parent, on_child] = twists.map(|(twist, lever)| twist.velocity_at(&lever));
                 [joint.length_along(arm, poses), (on_child - on_parent).dot(&along)]
             }
         };
@@ -86,8 +89,8 @@ fn report(joint: &Joint, child: usize, load: &Wrench, now: &BodyStates<'_>) -> J
     }
     let to_joint = now.poses[child].to_world(&joint.on_child);
     let torque = load.torque - to_joint.cross(&load.force);
-    let relative = now.twists[child].angular - now.twists[parent].angular;
-    let turned = now.poses[child].displacement_from(&now.poses[parent].composed(&joint.rest));
+    let relative = now.twists[child].angular - of_parent.angular;
+    let turned = now.poses[child].displacement_from(&parent.composed(&joint.rest));
     let turned = Vector3::from(turned.fixed_rows::<3>(3));
     let about = |axis: Vector3<f64>, coordinate: f64, rate: f64| {
         let load = torque.dot(&axis);
@@ -97,10 +100,10 @@ fn report(joint: &Joint, child: usize, load: &Wrench, now: &BodyStates<'_>) -> J
         // In space angles beyond half a turn are known to the joint alone
         Turn::Given { axis, angle } => {
             let [coordinate, rate] = angle(time);
-            about(now.poses[parent].to_world(axis), coordinate, rate)
+            about(parent.to_world(axis), coordinate, rate)
         }
         Turn::Free(Pivot { axis: Some(axis), .. }) => {
-            let axis = now.poses[parent].to_world(axis);
+            let axis = parent.to_world(axis);
             about(axis, turned.dot(&axis), relative.dot(&axis))
         }
         // The angle of the rotation, about what it has turned about

@@ -8,8 +8,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::attachment::Attachment;
 use super::in_time::TimeValue;
 use super::joint::Joint;
+use super::lever::Lever;
 use super::magnet::Magnet;
-use crate::body::{Inertia, Mode, Pose, RigidVector, Wrench};
+use crate::body::{Inertia, Mode, Pose, RigidVector, Twist, Wrench};
 use crate::gait::{DeformedOutline, Gait, ShapeMotion};
 use crate::structure::Flexible;
 
@@ -58,12 +59,16 @@ pub struct RigidBody {
     pub pose: Pose,
     /// What determines its velocities, by [`Mode`].
     pub drives: [Drive; 6],
+    /// Velocity at time zero, as far as it is free.
+    pub initial: Twist,
     /// Mass and inertia tensor, zero without inertia; of the shape at rest where it deforms.
     pub inertia: Inertia,
     /// Volume (m3; area planar, m2) and second moments: the inertia of unit density.
     pub volume: Inertia,
-    /// Weight less buoyancy.
+    /// Weight less buoyancy, at the centre of mass.
     pub weight: Wrench,
+    /// Buoyancy where it acts, if elsewhere: its torque.
+    pub buoyancy: Option<Lever>,
     /// External load besides, at the time its factor is one.
     pub load: Wrench,
     /// Factor of the external load in time.
@@ -94,9 +99,11 @@ impl RigidBody {
             boundary,
             pose,
             drives: [const { Drive::Held }; 6],
+            initial: Twist::default(),
             inertia: Inertia::default(),
             volume: Inertia::default(),
             weight: Wrench::default(),
+            buoyancy: None,
             load: Wrench::default(),
             load_factor: None,
             load_in_body: false,
@@ -148,9 +155,26 @@ impl RigidBody {
             self.load
         };
         let given = self.weight.to_vector() + load.to_vector() * factor;
-        match &self.magnet {
-            Some(magnet) => given + magnet.load(time, pose).to_vector(),
-            None => given,
+        let mut external = given;
+        if let Some(magnet) = &self.magnet {
+            external += magnet.load(time, pose).to_vector();
+        }
+        if let Some(lever) = &self.buoyancy {
+            let torque = lever.torque(pose);
+            external += Wrench { force: Vector3::zeros(), torque }.to_vector();
+        }
+        external
+    }
+
+    /// K of the torque T(pose) - K turn of all that turns the body with its pose, by which a step takes it implicitly
+    /// (N m/rad); `None` where nothing does.
+    #[must_use]
+    pub fn turning_stiffness(&self, time: f64, pose: &Pose) -> Option<Matrix3<f64>> {
+        let magnetic = self.magnet.as_ref().map(|magnet| magnet.turning_stiffness(time, pose));
+        let buoyant = self.buoyancy.as_ref().map(|lever| lever.turning_stiffness(pose));
+        match (magnetic, buoyant) {
+            (Some(one), Some(other)) => Some(one + other),
+            (one, other) => one.or(other),
         }
     }
 

@@ -9,9 +9,9 @@ use crate::body::Pose;
 
 /// How a body, the child, hangs on another one, its parent.
 pub struct Joint {
-    /// The body it hangs on.
-    pub parent: usize,
-    /// The joint in the frame of the parent, from its centre of mass (m).
+    /// The body it hangs on; `None` of the laboratory, which does not move.
+    pub parent: Option<usize>,
+    /// The joint in the frame of the parent, from its centre of mass (m), or in the laboratory.
     pub on_parent: Vector3<f64>,
     /// What is between the joints of parent and child; nothing at a pivot.
     pub arm: Option<Arm>,
@@ -90,6 +90,11 @@ impl JointLaw {
 }
 
 impl Joint {
+    /// The pose of what the child hangs on, with bodies at poses in the laboratory.
+    pub(in crate::coupling) fn parent_pose(&self, poses: &[Pose], child: usize) -> Pose {
+        self.parent.map_or_else(|| poses[child].laboratory(), |parent| poses[parent])
+    }
+
     /// The arm of free length, and its law.
     pub(in crate::coupling) fn free_arm(&self) -> Option<FreeArm<'_>> {
         let arm = self.arm.as_ref()?;

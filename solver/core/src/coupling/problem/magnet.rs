@@ -148,31 +148,36 @@ impl Magnet {
     }
 
     /// K of the torque T(pose) - K turn by which a step takes the field implicitly (N m/rad).
-    ///
-    /// With n the axis from moment to field, phi the angle between them and e = n x m / |m|,
-    /// -dT/dturn = m B (cos(phi) (n n + e e) - sin(phi) m e / |m|). About n the secant sin(phi) / phi takes the place of
-    /// cos(phi) where phi is large: there the tangent overshoots, and beyond a quarter of a turn leads away from the
-    /// field. The pose is found by iteration, so that this makes no difference to it. About e the cosine counts
-    /// where it is positive.
     #[must_use]
     pub fn turning_stiffness(&self, time: f64, pose: &Pose) -> Matrix3<f64> {
         let Pair { moment, field } = self.pair(time, pose);
-        let size = moment.norm() * field.value.norm();
-        if size == 0.0 {
-            return Matrix3::zeros();
-        }
-        let (torque, along) = (moment.cross(&field.value), moment.dot(&field.value));
-        let own = moment / moment.norm();
-        let across = torque.norm();
-        let restoring = along.max(0.0);
-        let Some(axis) = torque.try_normalize(ALIGNED * size) else {
-            return (Matrix3::identity() - own * own.transpose()) * restoring;
-        };
-        let side = axis.cross(&own);
-        let angle = across.atan2(along);
-        let about = if angle < NEWTON_ANGLE { along } else { across / angle };
-        axis * axis.transpose() * about + (side * restoring - own * across) * side.transpose()
+        restoring_stiffness(&moment, &field.value)
     }
+}
+
+/// K of the torque T - K turn, T = m x B, of a moment m that turns and a field B that does not, all in the world.
+///
+/// With n the axis from moment to field, phi the angle between them and e = n x m / |m|,
+/// -dT/dturn = m B (cos(phi) (n n + e e) - sin(phi) m e / |m|). About n the secant sin(phi) / phi takes the place of
+/// cos(phi) where phi is large: there the tangent overshoots, and beyond a quarter of a turn leads away from the
+/// field. The pose is found by iteration, so that this makes no difference to it. About e the cosine counts
+/// where it is positive.
+pub(super) fn restoring_stiffness(moment: &Vector3<f64>, field: &Vector3<f64>) -> Matrix3<f64> {
+    let size = moment.norm() * field.norm();
+    if size == 0.0 {
+        return Matrix3::zeros();
+    }
+    let (torque, along) = (moment.cross(field), moment.dot(field));
+    let own = moment / moment.norm();
+    let across = torque.norm();
+    let restoring = along.max(0.0);
+    let Some(axis) = torque.try_normalize(ALIGNED * size) else {
+        return (Matrix3::identity() - own * own.transpose()) * restoring;
+    };
+    let side = axis.cross(&own);
+    let angle = across.atan2(along);
+    let about = if angle < NEWTON_ANGLE { along } else { across / angle };
+    axis * axis.transpose() * about + (side * restoring - own * across) * side.transpose()
 }
 
 #[cfg(test)]

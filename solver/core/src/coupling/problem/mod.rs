@@ -5,6 +5,7 @@ mod body;
 mod group;
 mod in_time;
 mod joint;
+mod lever;
 mod magnet;
 mod mean_flow;
 mod side;
@@ -20,6 +21,7 @@ pub use group::Group;
 pub use in_time::{MovingValue, RateDiscontinuities, TimeValue};
 pub(in crate::coupling) use joint::FreeArm;
 pub use joint::{Arm, Joint, JointLaw, Length, Pivot, Turn, angle_about};
+pub use lever::Lever;
 pub use magnet::{FieldPart, LocalField, Magnet, MagneticField, UniformField};
 pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
 pub use side::{PressureProfile, Side, VelocityProfile};
@@ -199,7 +201,8 @@ impl<const D: usize> Problem<D> {
             let spring = body.spring.as_ref();
             let is_held =
                 spring.is_some_and(|s| s.stiffness[mode] != 0.0 || s.damping[mode] != 0.0);
-            !matches!(body.drive(mode), Drive::Given(_) | Drive::Held) && !is_held
+            let hangs = body.joint.as_ref().is_some_and(|joint| joint.parent.is_none());
+            !matches!(body.drive(mode), Drive::Given(_) | Drive::Held) && !is_held && !hangs
         };
         let sides = || self.sides.iter().flatten();
         let has_periods = sides().any(|side| matches!(side, Side::Periodic));
@@ -281,7 +284,7 @@ impl<const D: usize> Problem<D> {
     pub fn is_alone(&self, body: usize) -> bool {
         let RigidBody { joint, shape, .. } = &self.bodies[body];
         let mut joints = self.bodies.iter().filter_map(|other| other.joint.as_ref());
-        joint.is_none() && shape.is_none() && joints.all(|joint| joint.parent != body)
+        joint.is_none() && shape.is_none() && joints.all(|joint| joint.parent != Some(body))
     }
 
     /// A mass matrix of a body without the motions that are held or given.
@@ -309,7 +312,7 @@ impl<const D: usize> Problem<D> {
                 return Some([attachment.to, child]);
             }
             let joint = body.joint.as_ref().filter(|joint| joint.arm.is_none())?;
-            Some([joint.parent, child])
+            Some([joint.parent?, child])
         };
         self.bodies.iter().enumerate().filter_map(pair).collect()
     }

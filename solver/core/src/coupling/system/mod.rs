@@ -5,8 +5,10 @@
 //! m dU/dt - F_ext and d(I omega)/dt - T_ext, to those of its coordinates its structure adds M dv/dt + f(q, v, t): no
 //! interface stress, no multiplier, and no added-mass instability at any density ratio.
 
+mod adjoint;
 mod diagnosis;
 mod given_loads;
+mod linearise;
 mod mobility;
 mod net_flux;
 mod nullspace;
@@ -23,11 +25,8 @@ use self::numbering::{Numbering, blocks_of_bodies, free_velocities};
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
-use super::linear_system::{
-    Coefficients, Discretised, NewSystem, SolverChoice, SystemSolver, saddle_point, system_solver,
-};
+use super::linear_system::{NewSystem, SolverChoice, SystemSolver, saddle_point, system_solver};
 use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, side_loads, surface_loads};
-use super::mass_tolerance::mass_tolerance;
 use super::mean_flow::{CellIntegrals, MeanFlowResponse};
 use super::pressure_mean::PressureMean;
 use super::problem::{MeanFlowAt, Problem};
@@ -37,9 +36,9 @@ use super::solution::Solution;
 use super::surface::RestPlaces;
 use crate::algebra::{Accuracy, AffineConstraints, SolverMemory, SparseMatrix, Unknowns};
 use crate::body::{Modes, Pose};
-use crate::flow::{Assembly, Convection, FlowTerms, ViscosityTerm, assemble};
+use crate::flow::{Assembly, FlowTerms};
 use crate::space::{DofLayout, FacetRule, Tables};
-use crate::timing::{Stage, Timing};
+use crate::timing::Timing;
 
 /// Everything that defines the system on one configuration of the mesh.
 #[derive(Clone, Copy)]
@@ -312,40 +311,7 @@ impl<const D: usize> FluidSystem<D> {
         reduction: Option<f64>,
         timing: &mut Timing,
     ) -> Result<Solution<D>, SolveError> {
-        timing.measure(Stage::Assembly, || {
-            let (assembly, fields) = (&self.assembly, solution.fields());
-            self.linear.assemble(&mut |scatter| {
-                assemble(assembly, at.mesh, at.constraints, terms, &fields, scatter);
-            });
-            self.add_body_matrix(at, &solution.rates);
-        });
-        if let Some(nullspace) = &self.nullspace {
-            nullspace.check_balance(at.bodies, &at.mean_flow)?;
-        }
-        let local = match &terms.viscosity {
-            ViscosityTerm::Local(local) => Some(local),
-            ViscosityTerm::Constant(_) => None,
-        };
-        if local.is_some() {
-            self.linear.forget_weights();
-        }
-        let coefficients = Coefficients {
-            viscosity: terms.viscosity.constant().unwrap_or_default(),
-            inertia: terms.density * terms.rate,
-            has_convection: terms.convection != Convection::None,
-        };
-        let discretised = Discretised {
-            mesh: at.mesh,
-            layout: &self.layout,
-            constraints: at.constraints,
-            tables: self.assembly.tables(),
-            local,
-        };
-        self.linear.prepare(coefficients, &|| discretised.weights(coefficients), timing);
-        self.linear.recall_with_weights()?;
-        if self.linear.is_iterative() {
-            self.linear.limit_mass(mass_tolerance(at.problem, at.mesh, &solution.velocity));
-        }
+        self.linearise(at, terms, solution, timing)?;
         let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
         let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);

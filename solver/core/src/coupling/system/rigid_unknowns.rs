@@ -92,7 +92,8 @@ impl<const D: usize> FluidSystem<D> {
         }
         for joint in &at.bodies.joints {
             let mut rate: Vec<Term<u32>> = Vec::new();
-            for (body, share) in [(joint.child, joint.on_child), (joint.parent, joint.on_parent)] {
+            let parent = joint.parent.map(|parent| (parent, joint.on_parent));
+            for (body, share) in std::iter::once((joint.child, joint.on_child)).chain(parent) {
                 for (position, mode) in modes.iter().enumerate() {
                     let scaled =
                         |term: &Term<u32>| Term { weight: share[mode] * term.weight, ..*term };

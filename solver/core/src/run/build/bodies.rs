@@ -5,12 +5,12 @@ use nalgebra::Vector3;
 
 use super::rod::rod_shape;
 use super::solid::Solid;
-use crate::body::{Inertia, Mode, Orientation, Pose, RigidVector, Wrench};
+use crate::body::{Inertia, Mode, Orientation, Pose, RigidVector, Twist, Wrench};
 use crate::case::{
     Body, Case, FlowModel, GaitSpec, Geometry, Lock, Motion, ShapeSpec, SpringSpec, TimeFunction,
 };
-use crate::coupling::{Drive, RigidBody, Spring, TimeValue};
-use crate::gait::{Gait, InTime, Squirmer};
+use crate::coupling::{Drive, Lever, RigidBody, Spring, TimeValue};
+use crate::gait::{Gait, GaitAbout, InTime, Squirmer};
 use crate::run::RunError;
 use crate::run::shape_motion;
 use crate::space::Metric;
@@ -38,16 +38,28 @@ pub(super) fn rigid_body<const D: usize>(
     let density = body.density.unwrap_or(case.fluid.density);
     let inertia = match case.fluid.model {
         FlowModel::Stokes => Inertia::default(),
-        FlowModel::UnsteadyStokes | FlowModel::NavierStokes => volume.scaled(density),
+        FlowModel::UnsteadyStokes | FlowModel::NavierStokes => inertia(body, &volume, density),
     };
     // Weight less buoyancy: the pressure is the one without its hydrostatic part
-    let net_mass = (density - case.fluid.density) * volume.mass;
+    let net_mass = match body.mass {
+        Some(mass) => mass - case.fluid.density * volume.mass,
+        None => (density - case.fluid.density) * volume.mass,
+    };
     let weight = vector(&case.fluid.gravity) * net_mass;
+    let centroid = pose.center;
+    let pose = about_center_of_mass(body, pose);
+    let to_centroid = pose.to_body(&(centroid - pose.center));
+    let buoyancy = vector(&case.fluid.gravity) * (-case.fluid.density * volume.mass);
     let rigid = RigidBody {
         drives: drives(body, metric, case.geometry),
+        initial: Twist {
+            linear: vector(&body.velocity),
+            angular: Vector3::from(body.angular_velocity.0),
+        },
         inertia,
         volume,
         weight: Wrench { force: weight, torque: Vector3::zeros() },
+        buoyancy: (!body.center_of_mass.is_empty()).then(|| Lever::new(to_centroid, buoyancy)),
         load: Wrench { force: vector(&body.force), torque: Vector3::from(body.torque.0) },
         load_factor: body
             .load_factor
@@ -55,7 +67,7 @@ pub(super) fn rigid_body<const D: usize>(
             .map(|factor| -> TimeValue { Box::new(move |time| factor_at(Some(&factor), time)) }),
         load_in_body: !body.load_frame.is_laboratory(),
         spring: body.spring.as_ref().map(|spring| rigid_spring(spring, &pose)),
-        gait: slip(body, metric),
+        gait: slip(body, metric, &pose),
         shape: shape_motion(body, case.geometry)?,
         ..RigidBody::held(body.name.clone(), boundary, pose)
     };
@@ -63,6 +75,24 @@ pub(super) fn rigid_body<const D: usize>(
         Some(shape) => rigid.with_coordinates(shape),
         None => rigid,
     })
+}
+
+/// Mass and inertia of a body whose shape has this volume, with the density of what is not given (kg/m3).
+fn inertia(body: &Body, volume: &Inertia, density: f64) -> Inertia {
+    let even = volume.scaled(body.mass.map_or(density, |mass| mass / volume.mass));
+    Inertia {
+        mass: body.mass.unwrap_or(even.mass),
+        tensor: body.inertia.map_or(even.tensor, |own| own.tensor()),
+    }
+}
+
+/// A pose about the centre of mass that a body has apart from that of its shape, if it has.
+fn about_center_of_mass(body: &Body, pose: Pose) -> Pose {
+    if body.center_of_mass.is_empty() {
+        return pose;
+    }
+    let center = vector(&body.center) + pose.to_world(&vector(&body.center_of_mass));
+    Pose { center, ..pose }
 }
 
 /// What determines the velocities of a body.
@@ -77,7 +107,8 @@ fn drives(body: &Body, metric: Metric, geometry: Geometry) -> [Drive; 6] {
     };
     Mode::ALL.map(|mode| match &body.motion {
         Motion::Free if !is_locked(mode) => Drive::Free,
-        Motion::Held | Motion::Free => Drive::Held,
+        Motion::Free => driven(body, mode, in_plane).unwrap_or(Drive::Held),
+        Motion::Held | Motion::ByAxis(_) => Drive::Held,
         Motion::Imposed(imposed) => {
             let value = match mode {
                 Mode::AboutX | Mode::AboutY | Mode::AboutZ => {
@@ -85,10 +116,28 @@ fn drives(body: &Body, metric: Metric, geometry: Geometry) -> [Drive; 6] {
                 }
                 Mode::X | Mode::Y | Mode::Z => component(&imposed.velocity, mode.axis()),
             };
-            let factor = imposed.factor.clone();
+            let factor = if mode.is_rotation() {
+                imposed.factor_of_turn().cloned()
+            } else {
+                imposed.factor.clone()
+            };
             Drive::Given(Box::new(move |time| value * factor_at(factor.as_ref(), time)))
         }
     })
+}
+
+/// A motion whose rate is given while others may be free.
+fn driven(body: &Body, mode: Mode, in_plane: bool) -> Option<Drive> {
+    let motion =
+        if mode.is_rotation() { Lock::Rotation } else { [Lock::X, Lock::Y, Lock::Z][mode.axis()] };
+    let driven = body.driven.iter().find(|driven| driven.motion == motion)?;
+    let along = match (mode.is_rotation(), in_plane) {
+        (false, _) => 1.0,
+        (true, true) => f64::from(u8::from(mode == Mode::AboutZ)),
+        (true, false) => Vector3::from(driven.axis).normalize()[mode.axis()],
+    };
+    let law = driven.law.clone();
+    Some(Drive::Given(Box::new(move |time| along * law.rate(time))))
 }
 
 fn rigid_spring(spring: &SpringSpec, pose: &Pose) -> Spring {
@@ -122,8 +171,8 @@ fn rigid_spring(spring: &SpringSpec, pose: &Pose) -> Spring {
     }
 }
 
-/// Slip of the surface; gaits that deform the body are in `shape_motion`.
-fn slip(body: &Body, metric: Metric) -> Option<Box<dyn Gait>> {
+/// Slip of the surface of a body with a pose; gaits that deform the body are in `shape_motion`.
+fn slip(body: &Body, metric: Metric, pose: &Pose) -> Option<Box<dyn Gait>> {
     let squirmer = match &body.gait {
         Some(GaitSpec::Squirmer(squirmer)) => squirmer,
         None
@@ -139,11 +188,16 @@ fn slip(body: &Body, metric: Metric) -> Option<Box<dyn Gait>> {
     let in_time =
         |function: TimeFunction| InTime(Box::new(move |time| factor_at(Some(&function), time)));
     let factors = squirmer.factors_of_modes().into_iter();
-    Some(Box::new(Squirmer {
+    let gait = Squirmer {
         modes: squirmer.modes.clone(),
         factors: factors.map(|factor| factor.map(in_time)).collect(),
         axis,
         turn: squirmer.turn.clone().map(in_time),
         is_sphere: matches!(body.shape, ShapeSpec::Sphere { .. }),
-    }))
+    };
+    if body.center_of_mass.is_empty() {
+        return Some(Box::new(gait));
+    }
+    let center = pose.to_body(&(vector(&body.center) - pose.center));
+    Some(Box::new(GaitAbout { gait, center }))
 }

@@ -20,15 +20,22 @@ pub(super) fn add_joint(
             RunError::Unsupported(format!("a joint names \"{name}\", which is no body"))
         })
     };
-    let (parent, child) = (find(&joint.parent)?, find(&joint.child)?);
+    let parent = match model.hangs_on_laboratory(joint) {
+        true => None,
+        false => Some(find(&joint.parent)?),
+    };
+    let child = find(&joint.child)?;
     let is_spatial = model.case.geometry == Geometry::Spatial;
     let centroid = |body: usize| centroid(model, bodies, body);
     let [on_parent, on_child] = joint.ends();
-    let (on_parent, on_child) = (on_parent - centroid(parent), on_child - centroid(child));
+    let of_parent = parent.map_or_else(Vector3::zeros, centroid);
+    let (on_parent, on_child) = (on_parent - of_parent, on_child - centroid(child));
     // In space the orientations of the bodies say how the child is turned
-    let bend =
-        if is_spatial { 0.0 } else { model.bodies[child].angle - model.bodies[parent].angle };
-    let relative = || bodies[parent].pose.rotation().inverse() * bodies[child].pose.rotation();
+    let bend = if is_spatial { 0.0 } else { model.bodies[child].angle - angle_of(model, parent) };
+    let relative = || {
+        let own = bodies[child].pose.rotation();
+        parent.map_or(own, |parent| bodies[parent].pose.rotation().inverse() * own)
+    };
     let mut rest = if is_spatial { relative() } else { UnitQuaternion::identity() };
     let z = Vector3::z_axis();
     let mut arm = None;
@@ -74,6 +81,11 @@ pub(super) fn add_joint(
     Ok(())
 }
 
+/// The angle in the plane of what a joint hangs on (rad).
+fn angle_of(model: &Model, parent: Option<usize>) -> f64 {
+    parent.map_or(0.0, |parent| model.bodies[parent].angle)
+}
+
 /// Has the velocities of a child follow from its parent, but for those a free pivot leaves to it.
 fn link(body: &mut RigidBody, turn: &Turn, geometry: Geometry) {
     // What of a rotation about one axis in space is independent changes with its direction
@@ -97,6 +109,10 @@ fn centroid(model: &Model, bodies: &[RigidBody], body: usize) -> Vector3<f64> {
     if model.case.geometry == Geometry::Spatial {
         let frame = model.bodies[body].pose_in_space();
         return frame.inverse_transform_point(&bodies[body].pose.center.into()).coords;
+    }
+    if !model.bodies[body].center_of_mass.is_empty() {
+        let at = |axis: usize| model.bodies[body].center_of_mass.get(axis).copied();
+        return Vector3::from_fn(|axis, _| at(axis).unwrap_or(0.0));
     }
     let moments = model.bodies[body].shape.outline().moments();
     let centroid = moments.map(|moments| moments.centroid).unwrap_or_default();

@@ -31,8 +31,8 @@ pub(super) use self::solid::no_solid;
 use super::RunError;
 use crate::body::{Orientation, Pose};
 use crate::case::{
-    Case, ContactSpec, FlowModel, Geometry, MeanFlowSpec, Model, ShearLaw, Stroke, SwimmerModel,
-    TimeSettings, ViscositySpec,
+    Case, ContactSpec, DrivenLaw, FlowModel, Geometry, MeanFlowSpec, Model, ShearLaw, Stroke,
+    SwimmerModel, TimeSettings, ViscositySpec,
 };
 use crate::contact::{ContactError, Dissipation, Law, LawKind};
 use crate::coupling::{
@@ -213,8 +213,13 @@ fn rate_discontinuities<const D: usize>(
     problem: &Problem<D>,
 ) -> Option<RateDiscontinuities> {
     // Torques of hinges may jump: nothing moves by them at once
-    let strokes: Vec<Stroke> =
-        model.joints.iter().filter_map(|joint| joint.kind.stroke().cloned()).collect();
+    let of_joints = model.joints.iter().filter_map(|joint| joint.kind.stroke());
+    let of_bodies = model.bodies.iter().flat_map(|body| &body.driven);
+    let of_bodies = of_bodies.filter_map(|driven| match &driven.law {
+        DrivenLaw::Way(stroke) => Some(stroke),
+        DrivenLaw::Rate(_) => None,
+    });
+    let strokes: Vec<Stroke> = of_joints.chain(of_bodies).cloned().collect();
     let shapes: Vec<_> = problem.bodies.iter().filter_map(|body| body.shape.clone()).collect();
     if strokes.is_empty() && shapes.is_empty() {
         return None;

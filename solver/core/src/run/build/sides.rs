@@ -61,11 +61,7 @@ pub(super) fn side<const D: usize>(
             }))
         }
         BoundaryCondition::Developed { flux, peak, factor } => {
-            let amount = flux.map(Amount::Flux).or(peak.map(Amount::Peak));
-            let amount = amount.ok_or_else(|| {
-                RunError::Unsupported(format!("side `{name}` has neither a flux nor a peak"))
-            })?;
-            scaled(developed(case, mesh, name, amount)?, factor)
+            scaled(developed(case, mesh, name, amount(name, *flux, *peak)?)?, factor)
         }
         BoundaryCondition::Parabolic { peak, factor } => {
             let profile = match case.given_mesh() {
@@ -81,6 +77,13 @@ pub(super) fn side<const D: usize>(
             let (rate, origin) = (*rate, *origin);
             scaled(Box::new(move |point, _| along_x(rate * (point[1] - origin))), factor)
         }
+    })
+}
+
+/// How much flows through a side with a developed flow.
+fn amount(side: &str, flux: Option<f64>, peak: Option<f64>) -> Result<Amount, RunError> {
+    flux.map(Amount::Flux).or(peak.map(Amount::Peak)).ok_or_else(|| {
+        RunError::Unsupported(format!("side `{side}` has neither a flux nor a peak"))
     })
 }
 

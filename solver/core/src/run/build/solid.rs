@@ -36,7 +36,7 @@ impl Solid {
 
     fn in_plane(body: &Body) -> Result<Self, RunError> {
         let moments = body.shape.outline().moments().ok_or_else(|| {
-            RunError::Unsupported(format!("body `{}`: its spline has no valid outline", body.name))
+            RunError::Unsupported(format!("body `{}`: its points make no outline", body.name))
         })?;
         let volume = Inertia { mass: moments.measure, tensor: second_moments(&moments) };
         // The centre of mass of a spline is not the origin of its points
@@ -49,6 +49,12 @@ impl Solid {
     /// Of shapes without a closed form by what their surface in the mesh encloses.
     fn in_space(body: &Body, enclosed: impl FnOnce() -> Enclosed) -> Result<Self, RunError> {
         let place = body.pose_in_space();
+        if let ShapeSpec::Surface(surface) = &body.shape {
+            let moments = surface.solid().ok_or_else(|| no_solid(body))?.moments();
+            let centroid = place.transform_point(&moments.centroid.into()).coords;
+            let volume = Inertia { mass: moments.volume, tensor: moments.inertia };
+            return Ok(Self { volume, pose: Pose::spatial(centroid, place.rotation) });
+        }
         let has_closed_form = !matches!(
             body.shape,
             ShapeSpec::Helix(_)

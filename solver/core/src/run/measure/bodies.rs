@@ -18,9 +18,9 @@ use crate::structure::Bend;
 /// Factors that make coefficients of loads; not numbers without `[scales]`.
 pub(super) struct Coefficients {
     /// Coefficient per force (1/N).
-    force: f64,
+    pub(super) force: f64,
     /// Coefficient per torque (1/(N m)).
-    moment: f64,
+    pub(super) moment: f64,
 }
 
 impl Coefficients {

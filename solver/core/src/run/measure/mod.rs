@@ -9,6 +9,7 @@ mod integrals;
 mod momentum;
 mod probes;
 mod sides;
+mod steady;
 mod swimmers;
 mod value;
 
@@ -20,8 +21,9 @@ use self::bodies::{
 };
 pub(super) use self::flow::FlowMeasurement;
 use self::momentum::momentum_record;
-use self::probes::Probes;
+use self::probes::{ProbePlaces, Probes};
 use self::sides::{measure_sides, side_names};
+pub use self::steady::{BodiesInFlow, steady_value};
 use self::swimmers::SwimmerMeasurement;
 use super::RunError;
 use super::simulation::{CellCrossing, Simulation};
@@ -38,6 +40,9 @@ pub(super) struct Measure<const D: usize> {
     probes: Probes<D>,
     /// Names of all sides, if any is measured.
     sides: Vec<String>,
+    places: ProbePlaces,
+    /// Vectors by which the first mesh repeats (m).
+    images: Vec<Point<D>>,
     coefficients: Coefficients,
     balances_energy: bool,
     balances_momentum: bool,
@@ -67,11 +72,14 @@ impl<const D: usize> Measure<D> {
         let case = &model.case;
         let columns = columns(model);
         let has_sides = columns.iter().any(|column| matches!(column.source, Source::Side(..)));
+        let places = ProbePlaces::of(model);
         Ok(Self {
             sides: side_names(model, has_sides),
             names: columns.iter().map(|column| column.name.clone()).collect(),
             columns,
-            probes: Probes::in_fluid(case, mesh, images)?,
+            probes: Probes::in_fluid(case, &places, mesh, images)?,
+            places,
+            images: images.to_vec(),
             coefficients: Coefficients::of(case),
             balances_energy: model.balances_energy(),
             balances_momentum: model.balances_momentum(),
@@ -79,9 +87,17 @@ impl<const D: usize> Measure<D> {
         })
     }
 
-    /// Finds the probes in a mesh that has moved, seen from the frame.
-    pub(super) fn find_probes(&mut self, case: &Case, mesh: &Mesh<D>, images: &[Point<D>]) {
-        self.probes = Probes::find(case, mesh, images);
+    /// Finds the probes in the mesh of a state, seen from the frame.
+    pub(super) fn find_probes(
+        &mut self,
+        case: &Case,
+        problem: &Problem<D>,
+        state: &State<D>,
+        images: &[Point<D>],
+    ) {
+        let poses = state.in_own_frame(problem, &state.poses);
+        let places = self.places.now(problem, &poses);
+        self.probes = Probes::find(case, &places, &state.mesh_in_frame(), images);
     }
 
     pub(super) fn names(&self) -> &[String] {
@@ -99,12 +115,15 @@ impl<const D: usize> Measure<D> {
         loads: &SurfaceLoads,
         crossing: Option<CellCrossing>,
     ) -> Result<Measured, RunError> {
-        let Simulation { state, work, moving_mesh, .. } = simulation;
-        if let Some(moving) = moving_mesh.as_ref().filter(|_| !self.probes.is_empty()) {
-            let seen = state.mesh_in_frame();
+        let Simulation { problem, state, work, moving_mesh, .. } = simulation;
+        if !self.probes.is_empty() && (moving_mesh.is_some() || self.places.ride()) {
             work.timing.measure(Stage::Loads, || {
-                let images = moving.scene().images([&seen, &seen]);
-                self.find_probes(case, &seen, &images);
+                let images = moving_mesh.as_ref().map(|moving| {
+                    let seen = state.mesh_in_frame();
+                    moving.scene().images([&seen, &seen])
+                });
+                let images = images.unwrap_or_else(|| self.images.clone());
+                self.find_probes(case, problem, state, &images);
             });
         }
         let mut timing = simulation.work.timing;

@@ -5,8 +5,9 @@ use alewife_mesh::{CellId, Locator, Mesh, Point};
 use nalgebra::Vector3;
 
 use super::value::Value;
-use crate::body::in_space;
-use crate::case::{Case, Probe, ProbeQuantity};
+use crate::body::{Pose, in_space};
+use crate::case::{Case, Model, ProbeQuantity};
+use crate::coupling::Problem;
 use crate::run::RunError;
 use crate::space::{p1_values, p2_values};
 use crate::state::State;
@@ -20,6 +21,45 @@ struct ProbePoint<const D: usize> {
 
 /// The points of each probe; `None` where there is no fluid, as where a body covers the point.
 pub(super) struct Probes<const D: usize>(Vec<Vec<Option<ProbePoint<D>>>>);
+
+/// Where the points of all probes are at the start (m), and which bodies they ride on.
+pub(super) struct ProbePlaces {
+    start: Vec<Vec<Vec<f64>>>,
+    bodies: Vec<Option<usize>>,
+}
+
+impl ProbePlaces {
+    /// Those of a case.
+    pub(super) fn of(model: &Model) -> Self {
+        Self { start: model.probe_points(), bodies: model.probe_bodies() }
+    }
+
+    /// Whether any rides on a body.
+    pub(super) fn ride(&self) -> bool {
+        self.bodies.iter().any(Option::is_some)
+    }
+
+    /// Where they are with bodies at poses in the mesh (m).
+    pub(super) fn now<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        poses: &[Pose],
+    ) -> Vec<Vec<Vec<f64>>> {
+        let carried = |(points, body): (&Vec<Vec<f64>>, &Option<usize>)| match *body {
+            None => points.clone(),
+            Some(body) => {
+                let (start, now) = (&problem.bodies[body].pose, &poses[body]);
+                let carry = |point: &Vec<f64>| {
+                    let at = Vector3::from_fn(|axis, _| point.get(axis).copied().unwrap_or(0.0));
+                    let own = start.to_body(&(at - start.center));
+                    (now.center + now.to_world(&own)).as_slice()[..D].to_vec()
+                };
+                points.iter().map(carry).collect()
+            }
+        };
+        self.start.iter().zip(&self.bodies).map(carried).collect()
+    }
+}
 
 /// Velocity (m/s) and pressure (Pa) of a probe; not numbers where there is no fluid.
 pub(super) struct ProbeMeasurement {
@@ -37,9 +77,14 @@ impl ProbeMeasurement {
 }
 
 impl<const D: usize> Probes<D> {
-    /// The points of all probes in a mesh, or in its images by these shifts (m).
-    pub(super) fn find(case: &Case, mesh: &Mesh<D>, images: &[Point<D>]) -> Self {
-        if case.probe.is_empty() {
+    /// The points of all probes at places (m) in a mesh, or in its images by these shifts (m).
+    pub(super) fn find(
+        case: &Case,
+        places: &[Vec<Vec<f64>>],
+        mesh: &Mesh<D>,
+        images: &[Point<D>],
+    ) -> Self {
+        if places.is_empty() {
             return Self(Vec::new());
         }
         let locator = Locator::new(mesh);
@@ -53,11 +98,10 @@ impl<const D: usize> Probes<D> {
             let found = found.filter(|found| found.distance <= reach);
             found.map(|found| ProbePoint { cell: found.cell, xi: found.reference.into(), sign })
         };
-        let of_probe = |probe: &Probe| {
-            let minus = (!probe.minus.is_empty()).then(|| find(&probe.minus, -1.0));
-            std::iter::once(find(&probe.point, 1.0)).chain(minus).collect()
+        let of_probe = |points: &Vec<Vec<f64>>| {
+            points.iter().zip([1.0, -1.0]).map(|(point, sign)| find(point, sign)).collect()
         };
-        Self(case.probe.iter().map(of_probe).collect())
+        Self(places.iter().map(of_probe).collect())
     }
 
     /// The same, where all of them must be in the fluid.
@@ -66,10 +110,11 @@ impl<const D: usize> Probes<D> {
     /// When one is not.
     pub(super) fn in_fluid(
         case: &Case,
+        places: &ProbePlaces,
         mesh: &Mesh<D>,
         images: &[Point<D>],
     ) -> Result<Self, RunError> {
-        let probes = Self::find(case, mesh, images);
+        let probes = Self::find(case, &places.start, mesh, images);
         for (probe, points) in case.probe.iter().zip(&probes.0) {
             if let Some(missing) = points.iter().position(Option::is_none) {
                 let point = if missing == 0 { &probe.point } else { &probe.minus };

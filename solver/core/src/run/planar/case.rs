@@ -130,7 +130,7 @@ fn waving_sheet(case: &Case, side: &str) -> Option<WavingSheet> {
 }
 
 /// The bodies of a case as they are meshed at time zero.
-fn placed_bodies(model: &Model) -> Result<Vec<PlacedShape>, RunError> {
+pub(super) fn placed_bodies(model: &Model) -> Result<Vec<PlacedShape>, RunError> {
     let placed = |body: &Body| {
         let mut placed = body.placed(model.case.mesh.scale);
         let rod = rod_shape(&model.case, body)?;

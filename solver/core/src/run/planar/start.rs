@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{Mesh, Outline, PlacedShape, Point};
 
-use super::case::{MeshedCase, PlanarCase};
+use super::case::{MeshedCase, PlanarCase, placed_bodies};
 use super::resume::moving_mesh_of;
 use super::scene::PlanarScene;
 use crate::case::{Case, Model};
@@ -12,7 +12,7 @@ use crate::coupling::Problem;
 use crate::motion::MovingMesh;
 use crate::motion::RemeshError;
 use crate::run::RunError;
-use crate::run::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh};
+use crate::run::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh, NearestOnBody};
 use crate::run::resume::Reference;
 
 impl CaseMesh<2> for Dimension<2> {
@@ -26,6 +26,14 @@ impl CaseMesh<2> for Dimension<2> {
 
     fn images(case: &Case, mesh: &Mesh<2>) -> Vec<Point<2>> {
         case.mesh_domain().images_around(mesh.nodes.iter().copied())
+    }
+
+    fn nearest_on_bodies(model: &Model) -> Result<Vec<NearestOnBody<2>>, RunError> {
+        let nearest = |shape: &PlacedShape| -> Result<NearestOnBody<2>, RunError> {
+            let outline = Outline::new(shape)?;
+            Ok(Box::new(move |point| outline.nearest(*point).point))
+        };
+        placed_bodies(model)?.iter().map(nearest).collect()
     }
 
     fn moving_mesh_of(

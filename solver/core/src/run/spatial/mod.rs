@@ -5,15 +5,15 @@ mod scene;
 
 use std::sync::Arc;
 
-use alewife_mesh::spatial::{estimate_cells, generate};
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::spatial::{Body as Solid, BodySurface, estimate_cells, generate};
+use alewife_mesh::{Mesh, Point, Surface};
 use nalgebra::Vector3;
 
 use self::case::{SpatialCase, move_into, no_domain, solids};
 use self::scene::SpatialScene;
 use super::RunError;
 use super::build::sizing;
-use super::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh};
+use super::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh, NearestOnBody};
 use super::resume::{Reference, ResumeError};
 use super::start::check_cells;
 use crate::body::Pose;
@@ -42,6 +42,14 @@ impl CaseMesh<3> for Dimension<3> {
     fn images(case: &Case, mesh: &Mesh<3>) -> Vec<Point<3>> {
         let domain = case.domain_in_space();
         domain.map_or(vec![Point::<3>::zeros()], |domain| domain.images_around(&mesh.nodes))
+    }
+
+    fn nearest_on_bodies(model: &Model) -> Result<Vec<NearestOnBody<3>>, RunError> {
+        let nearest = |solid: &Solid| -> Result<NearestOnBody<3>, RunError> {
+            let surface = BodySurface::new(solid)?;
+            Ok(Box::new(move |point| surface.nearest_point(*point).point))
+        };
+        solids(model)?.iter().map(nearest).collect()
     }
 
     fn moving_mesh_of(

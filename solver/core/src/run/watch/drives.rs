@@ -131,8 +131,8 @@ impl<const D: usize> Simulation<D> {
     fn counted(&self) -> Vec<bool> {
         let bodies = &self.problem.bodies;
         let root = |mut body: usize| {
-            while let Some(joint) = &bodies[body].joint {
-                body = joint.parent;
+            while let Some(parent) = bodies[body].joint.as_ref().and_then(|joint| joint.parent) {
+                body = parent;
             }
             body
         };
@@ -218,7 +218,8 @@ impl<const D: usize> Simulation<D> {
             // However it is turned: the torque of a field that it is turned along may be any later
             let magnet = body.magnet.as_ref();
             let magnetic = magnet.map_or(0.0, |magnet| magnet.largest_torque(state.time, pose));
-            let load = force + (torque + magnetic) / radius + motor;
+            let buoyant = body.buoyancy.map_or(0.0, |lever| lever.largest_torque());
+            let load = force + (torque + magnetic + buoyant) / radius + motor;
             LoadStep { load, acceleration: load / mass }
         };
         problem.bodies.iter().zip(&state.poses).map(step).collect()

@@ -4,7 +4,9 @@ use alewife_mesh::Point;
 
 mod steady;
 
-pub use steady::{SteadyFailure, SteadyFlow, SteadyTask, solve_steady};
+pub use steady::{
+    SteadyFailure, SteadyFlow, SteadyTask, solve_steady, steady_convection, steady_terms,
+};
 
 use super::error::FlowError;
 use super::stepper::Step;

@@ -94,27 +94,7 @@ impl<const D: usize> FlowEquations<D> for SteadyEquations<'_, D> {
         convecting_velocity: &'a [Point<D>],
         solution: &'a Solution<D>,
     ) -> FlowTerms<'a, D> {
-        let (problem, parts) = (self.problem, self.parts);
-        let viscosity = match problem.viscosity.part(parts.law) {
-            Viscosity::Newtonian(value) => ViscosityTerm::Constant(value),
-            law if parts.law == 0.0 => ViscosityTerm::Constant(law.zero_shear()),
-            law => ViscosityTerm::Local(LocalViscosity {
-                law,
-                velocity: &solution.velocity,
-                has_tangent: true,
-            }),
-        };
-        let convection =
-            if parts.density > 0.0 { problem.newton_convection() } else { Convection::None };
-        FlowTerms {
-            viscosity,
-            density: problem.density * parts.density,
-            rate: 0.0,
-            history: &[],
-            convecting_velocity,
-            convection,
-            body_force: problem.body_force,
-        }
+        terms_with(self.problem, self.parts, convecting_velocity, solution)
     }
 
     fn on_iteration(&self, iteration: usize, residual: f64) {
@@ -129,6 +109,60 @@ impl<const D: usize> FlowEquations<D> for SteadyEquations<'_, D> {
     fn wants_stop(&self) -> bool {
         self.stop.is_some_and(|stop| stop())
     }
+}
+
+/// The terms with these parts of the density and of the law of the viscosity, linearised at a solution.
+fn terms_with<'a, const D: usize>(
+    problem: &Problem<D>,
+    parts: Parts,
+    convecting_velocity: &'a [Point<D>],
+    solution: &'a Solution<D>,
+) -> FlowTerms<'a, D> {
+    let viscosity = match problem.viscosity.part(parts.law) {
+        Viscosity::Newtonian(value) => ViscosityTerm::Constant(value),
+        law if parts.law == 0.0 => ViscosityTerm::Constant(law.zero_shear()),
+        law => ViscosityTerm::Local(LocalViscosity {
+            law,
+            velocity: &solution.velocity,
+            has_tangent: true,
+        }),
+    };
+    let convection =
+        if parts.density > 0.0 { problem.newton_convection() } else { Convection::None };
+    FlowTerms {
+        viscosity,
+        density: problem.density * parts.density,
+        rate: 0.0,
+        history: &[],
+        convecting_velocity,
+        convection,
+        body_force: problem.body_force,
+    }
+}
+
+/// What convects at the nodes (m/s) of a steady flow; none without convection.
+#[must_use]
+pub fn steady_convection<const D: usize>(
+    problem: &Problem<D>,
+    solution: &Solution<D>,
+) -> Vec<Point<D>> {
+    SteadyEquations { problem, parts: whole(problem.has_convection), stop: None }
+        .convecting_velocity(solution)
+}
+
+/// The terms of the equations of a steady flow with what convects at the nodes (m/s), linearised at a solution.
+#[must_use]
+pub fn steady_terms<'a, const D: usize>(
+    problem: &Problem<D>,
+    convecting_velocity: &'a [Point<D>],
+    solution: &'a Solution<D>,
+) -> FlowTerms<'a, D> {
+    terms_with(problem, whole(problem.has_convection), convecting_velocity, solution)
+}
+
+/// All of the density where the fluid is convected, and all of the law.
+fn whole(has_convection: bool) -> Parts {
+    Parts { density: if has_convection { 1.0 } else { 0.0 }, law: 1.0 }
 }
 
 /// Solves for a steady flow on the mesh of `work`.
@@ -149,8 +183,7 @@ pub fn solve_steady<const D: usize>(
     let mut flow = continuation.solve(work, &at)?;
     work.system.center_pressure(problem, &mut flow.solution);
     if problem.power_depends_on_pressure_level() {
-        let density = if task.has_convection { 1.0 } else { 0.0 };
-        let parts = Parts { density, law: 1.0 };
+        let parts = whole(task.has_convection);
         let equations = SteadyEquations { problem, parts, stop: None };
         flow.residual = flow_residual(&work.system, &at, &equations, &flow.solution);
     }

@@ -2,6 +2,7 @@
 
 mod shared;
 mod solve;
+mod transposed;
 
 use std::ops::Range;
 

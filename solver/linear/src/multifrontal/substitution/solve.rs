@@ -17,11 +17,11 @@ const BLOCK: usize = 32;
 const CHUNK: usize = 4096;
 
 /// A segment with its part of the vectors, one right-hand side after the other.
-struct Part<'a> {
-    segment: &'a Segment,
-    delays: &'a [Delay],
-    b: &'a mut [f64],
-    x: &'a mut [f64],
+pub(super) struct Part<'a> {
+    pub segment: &'a Segment,
+    pub delays: &'a [Delay],
+    pub b: &'a mut [f64],
+    pub x: &'a mut [f64],
     n_sides: usize,
 }
 
@@ -42,13 +42,7 @@ impl Factors {
         for block in x.chunks_mut(n * BLOCK) {
             let n_sides = block.len() / n;
             let fill = |segment: &Segment, side: usize, b: &mut [f64]| {
-                let of_side = &block[side * n..(side + 1) * n];
-                let unknowns = &analysis.unknown_at[segment.positions.clone()];
-                let is_pressure = &analysis.is_pressure_at[segment.positions.clone()];
-                for ((value, &unknown), &is_pressure) in b.iter_mut().zip(unknowns).zip(is_pressure)
-                {
-                    *value = of_side[unknown as usize] * self.scale(is_pressure);
-                }
+                self.scaled(analysis, &block[side * n..(side + 1) * n], segment, b);
             };
             self.substitute(analysis, 0, &mut scratch, n_sides, fill);
             for (side, values) in block.chunks_mut(n).enumerate() {
@@ -62,6 +56,21 @@ impl Factors {
             }
         }
         self.scratch = scratch;
+    }
+
+    /// A segment's part of a right-hand side, with pressures in their scale.
+    pub(super) fn scaled(
+        &self,
+        analysis: &Analysis,
+        rhs: &[f64],
+        segment: &Segment,
+        b: &mut [f64],
+    ) {
+        let unknowns = &analysis.unknown_at[segment.positions.clone()];
+        let is_pressure = &analysis.is_pressure_at[segment.positions.clone()];
+        for ((value, &unknown), &is_pressure) in b.iter_mut().zip(unknowns).zip(is_pressure) {
+            *value = rhs[unknown as usize] * self.scale(is_pressure);
+        }
     }
 
     /// The block of the inverse in the rows and columns of some of the unknowns with dense rows, column
@@ -143,7 +152,7 @@ impl Factors {
     }
 
     /// The vectors, cut into segments.
-    fn parts<'a>(
+    pub(super) fn parts<'a>(
         &'a self,
         analysis: &'a Analysis,
         scratch: &'a mut Scratch,
@@ -181,14 +190,19 @@ impl Factors {
     }
 
     /// Where each segment has the values of one right-hand side.
-    fn starts_of_side(&self, analysis: &Analysis, side: usize, n_sides: usize) -> Vec<usize> {
+    pub(super) fn starts_of_side(
+        &self,
+        analysis: &Analysis,
+        side: usize,
+        n_sides: usize,
+    ) -> Vec<usize> {
         let starts = self.starts(analysis, n_sides);
         let of_side = starts.windows(2).map(|ends| ends[0] + (ends[1] - ends[0]) / n_sides * side);
         of_side.collect()
     }
 
     /// Gives the pressures of a segment their own scale again.
-    fn scale_pressures(&self, analysis: &Analysis, part: &mut Part<'_>) {
+    pub(super) fn scale_pressures(&self, analysis: &Analysis, part: &mut Part<'_>) {
         let n_slots = part.n_slots().max(1);
         let is_pressure = &analysis.is_pressure_at[part.segment.positions.clone()];
         for x in part.x.chunks_mut(n_slots) {
@@ -236,7 +250,7 @@ impl Factors {
         }
     }
 
-    fn of_front<'a>(&'a self, analysis: &'a Analysis, index: usize) -> FrontFactors<'a> {
+    pub(super) fn of_front<'a>(&'a self, analysis: &'a Analysis, index: usize) -> FrontFactors<'a> {
         if let Some(own) = self.delayed.get(&index) {
             let (pivot_rows, border_rows) = own.rows.split_at(own.n_pivots);
             let (pivot_columns, border_columns) = own.columns.split_at(own.n_pivots);
@@ -263,7 +277,7 @@ impl Factors {
         }
     }
 
-    fn local_values(&self, part: &Part<'_>) -> LocalValues {
+    pub(super) fn local_values(&self, part: &Part<'_>) -> LocalValues {
         let delayed = self.delayed.range(part.segment.fronts.clone());
         let orders = delayed.map(|(_, own)| own.rows.len());
         LocalValues::new(orders.fold(part.segment.largest_front, usize::max), part.n_sides)
@@ -281,7 +295,7 @@ impl Part<'_> {
     }
 
     /// Overwrites the right-hand sides of the own unknowns by what `fill` gives, those of the others by zero.
-    fn fill(&mut self, fill: &impl Fn(&Segment, usize, &mut [f64])) {
+    pub(super) fn fill(&mut self, fill: &impl Fn(&Segment, usize, &mut [f64])) {
         let (n_slots, n_own) = (self.n_slots(), self.segment.positions.len());
         for (side, b) in self.b.chunks_mut(n_slots.max(1)).enumerate() {
             fill(self.segment, side, b);
@@ -290,7 +304,7 @@ impl Part<'_> {
     }
 
     /// Adds what a subtree has for the right-hand sides of the unknowns above it.
-    fn add_from(&mut self, subtree: &Part<'_>) {
+    pub(super) fn add_from(&mut self, subtree: &Part<'_>) {
         let start = self.segment.positions.start;
         let (n_above, n_own) = (self.n_slots().max(1), subtree.segment.positions.len());
         let of_subtree = subtree.b.chunks(subtree.n_slots().max(1));
@@ -305,7 +319,7 @@ impl Part<'_> {
     }
 
     /// Copies the solutions of the unknowns above.
-    fn copy_from(&mut self, above: &Part<'_>) {
+    pub(super) fn copy_from(&mut self, above: &Part<'_>) {
         let start = above.segment.positions.start;
         let (n_slots, n_own) = (self.n_slots().max(1), self.segment.positions.len());
         let of_above = above.x.chunks(above.n_slots().max(1));

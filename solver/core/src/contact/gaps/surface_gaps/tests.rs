@@ -131,3 +131,43 @@ fn of_a_chain_the_gaps_between_links_that_share_no_pivot_count() {
     // The pair whose bodies share no pivot
     assert!((among(&[3, 4]).unwrap() - 0.05).abs() < 1e-12);
 }
+
+#[test]
+fn gaps_of_polygons_change_as_their_gradients_say() {
+    let polygon =
+        |points: Vec<[f64; 2]>| PlacedShape { shape: Shape::Polygon { points }, ..unit_disc(0) };
+    let named = |name: &str, body: PlacedShape| PlacedShape { name: name.to_owned(), ..body };
+    let square = polygon(vec![[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]]);
+    let wedge = polygon(vec![[0.7, 0.0], [-0.3, 0.4], [0.0, 0.0], [-0.3, -0.4]]);
+    let bodies = [named("square", square), named("wedge", wedge), named("disc", unit_disc(2))];
+    let gaps = PlanarGaps::new(&box_of(9.0, false, false), &[2], &bodies).unwrap();
+    // The square nearly flat on the floor, the disc on its side, the tip of the wedge at its corner
+    let poses =
+        [Pose::planar(3.0, 0.52, 0.01), Pose::planar(4.4, 1.2, 3.6), Pose::planar(2.9, 2.1, 0.0)];
+    let range = 0.6;
+    let pairs = gaps.pairs(&poses, range);
+    assert!(pairs.len() >= 4, "{}", pairs.len());
+    let step = 1e-6;
+    for body in 0..3 {
+        for mode in [0, 1, 5] {
+            let moved = |size: f64| {
+                let mut displacement = crate::body::RigidVector::zeros();
+                displacement[mode] = size;
+                let mut moved = poses;
+                moved[body] = poses[body].displaced(&displacement);
+                gaps.pairs(&moved, range)
+            };
+            let (ahead, behind) = (moved(step), moved(-step));
+            for ((at, up), down) in pairs.iter().zip(&ahead).zip(&behind) {
+                let slope = (up.gap - down.gap) / (2.0 * step);
+                let [own, others] = at.gradient();
+                let exact = match at.partner {
+                    _ if at.body == body => own[mode],
+                    Partner::Body(other) if other == body => others[mode],
+                    _ => 0.0,
+                };
+                assert!((slope - exact).abs() < 2e-3, "{body} {mode}: {slope} {exact} {at:?}");
+            }
+        }
+    }
+}

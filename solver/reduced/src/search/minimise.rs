@@ -2,79 +2,17 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::fmt::Display;
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction, Executor,
     FirstOrderState, Gradient, Lbfgsb, Termination,
 };
 
-use super::SoftError;
+use super::{Bounded, SearchError};
 
 /// Pairs of steps and slopes that the method keeps.
 const MEMORY: usize = 10;
-
-/// A parameter of a search.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bounded {
-    /// Its name, for messages and reports.
-    pub name: String,
-    /// Where the search starts.
-    pub start: f64,
-    /// Lower bound.
-    pub lower: f64,
-    /// Upper bound.
-    pub upper: f64,
-    /// The size of a change that matters; where there is none the logarithm is searched, of positive numbers.
-    pub scale: Option<f64>,
-}
-
-impl Bounded {
-    fn check(&self) -> Result<(), SoftError> {
-        let Self { start, lower, upper, .. } = *self;
-        let wrong = |what: String| Err(SoftError::Bounds { name: self.name.clone(), what });
-        if ![start, lower, upper].iter().all(|value| value.is_finite()) || lower > upper {
-            return wrong(format!(
-                "the bounds {lower} and {upper} and the start {start} are not \
-                three numbers with the first not above the second"
-            ));
-        }
-        if !(lower <= start && start <= upper) {
-            return wrong(format!(
-                "the start {start} is not between the bounds {lower} and {upper}: widen them or move it"
-            ));
-        }
-        match self.scale {
-            Some(scale) if !(scale > 0.0 && scale.is_finite()) => {
-                wrong(format!("the scale {scale} is not positive"))
-            }
-            None if lower <= 0.0 => wrong(format!(
-                "without a scale the logarithm is searched, and the lower bound {lower} has none"
-            )),
-            _ => Ok(()),
-        }
-    }
-
-    /// The number that is searched.
-    fn searched(&self, value: f64) -> f64 {
-        self.scale.map_or_else(|| value.ln(), |scale| value / scale)
-    }
-
-    /// The parameter of a searched number, exactly a bound where it is one.
-    fn value(&self, searched: f64) -> f64 {
-        if searched <= self.searched(self.lower) {
-            return self.lower;
-        }
-        if searched >= self.searched(self.upper) {
-            return self.upper;
-        }
-        self.scale.map_or_else(|| searched.exp(), |scale| searched * scale)
-    }
-
-    /// Derivative of the parameter by the searched number.
-    fn slope(&self, value: f64) -> f64 {
-        self.scale.unwrap_or(value)
-    }
-}
 
 /// An objective at values of the parameters.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,7 +71,7 @@ pub struct Found {
 #[derive(Debug, Clone, PartialEq)]
 enum Stop {
     UsedUp,
-    Failed(SoftError),
+    Failed(String),
 }
 
 /// The objective as the method sees it, scaled by its value at the start.
@@ -152,7 +90,7 @@ struct State<E> {
     stop: Option<Stop>,
 }
 
-impl<E: FnMut(&[f64]) -> Result<Evaluated, SoftError>> Scaled<'_, E> {
+impl<E: FnMut(&[f64]) -> Result<Evaluated, String>> Scaled<'_, E> {
     /// The objective at searched numbers.
     fn at(&self, searched: &[f64]) -> Result<Evaluated, String> {
         let values: Vec<f64> =
@@ -176,9 +114,8 @@ impl<E: FnMut(&[f64]) -> Result<Evaluated, SoftError>> Scaled<'_, E> {
                 state.all.push(found.clone());
                 Ok(found)
             }
-            Err(error) => {
-                let said = error.to_string();
-                state.stop = Some(Stop::Failed(error));
+            Err(said) => {
+                state.stop = Some(Stop::Failed(said.clone()));
                 Err(said)
             }
         }
@@ -200,7 +137,7 @@ impl<E> Constraints for Scaled<'_, E> {
     }
 }
 
-impl<E: FnMut(&[f64]) -> Result<Evaluated, SoftError>> CostFunction for Scaled<'_, E> {
+impl<E: FnMut(&[f64]) -> Result<Evaluated, String>> CostFunction for Scaled<'_, E> {
     type Param = Vec<f64>;
     type Output = f64;
     type Error = String;
@@ -211,7 +148,7 @@ impl<E: FnMut(&[f64]) -> Result<Evaluated, SoftError>> CostFunction for Scaled<'
     }
 }
 
-impl<E: FnMut(&[f64]) -> Result<Evaluated, SoftError>> Gradient for Scaled<'_, E> {
+impl<E: FnMut(&[f64]) -> Result<Evaluated, String>> Gradient for Scaled<'_, E> {
     type Gradient = Vec<f64>;
 
     fn gradient(&self, searched: &Vec<f64>) -> Result<Vec<f64>, String> {
@@ -226,12 +163,14 @@ impl<E: FnMut(&[f64]) -> Result<Evaluated, SoftError>> Gradient for Scaled<'_, E
 /// it is called once for each set of values, and can report and store them.
 ///
 /// # Errors
-/// [`SoftError::Bounds`], and that of the evaluation at the start. Later failures end the search at its best.
-pub fn minimise(
+/// [`SearchError::Bounds`], and [`SearchError::Start`] where the start cannot be evaluated. Later failures end the
+/// search at its best.
+pub fn minimise<E: Display>(
     parameters: &[Bounded],
     search: &Search,
-    evaluate: impl FnMut(&[f64]) -> Result<Evaluated, SoftError>,
-) -> Result<Found, SoftError> {
+    mut evaluate: impl FnMut(&[f64]) -> Result<Evaluated, E>,
+) -> Result<Found, SearchError> {
+    let evaluate = |values: &[f64]| evaluate(values).map_err(|error| error.to_string());
     for parameter in parameters {
         parameter.check()?;
     }
@@ -254,8 +193,8 @@ pub fn minimise(
     if let Err(said) = problem.at(&start) {
         let stop = state.borrow_mut().stop.take();
         return Err(match stop {
-            Some(Stop::Failed(error)) => error,
-            _ => SoftError::Search(said),
+            Some(Stop::Failed(error)) => SearchError::Start(error),
+            _ => SearchError::Start(said),
         });
     }
     let method = Lbfgsb::new()
@@ -267,7 +206,7 @@ pub fn minimise(
         .run();
     let ended = match (state.borrow_mut().stop.take(), result) {
         (Some(Stop::UsedUp), _) => Ended::Evaluations,
-        (Some(Stop::Failed(error)), _) => Ended::Failed(error.to_string()),
+        (Some(Stop::Failed(said)), _) => Ended::Failed(said),
         (None, Err(error)) => Ended::Failed(error.to_string()),
         (None, Ok(result)) => match result.report.termination {
             Termination::Converged(_) => Ended::Converged,
@@ -276,6 +215,6 @@ pub fn minimise(
     };
     let all = state.into_inner().all;
     let best = all.iter().min_by(|a, b| a.objective.total_cmp(&b.objective)).cloned();
-    let best = best.ok_or_else(|| SoftError::Search("nothing was evaluated".to_owned()))?;
+    let best = best.ok_or_else(|| SearchError::Start("nothing was evaluated".to_owned()))?;
     Ok(Found { best, all, ended })
 }

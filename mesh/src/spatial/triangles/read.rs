@@ -1,0 +1,69 @@
+//! Files of triangles, told apart by their content.
+
+use std::collections::HashMap;
+
+use super::{SurfaceFault, TriangleMesh, at_most, obj, ply, stl};
+use crate::Point;
+use crate::number::index_u32;
+
+impl TriangleMesh {
+    /// Reads a file: STL as text or binary, OBJ or PLY; polygons are cut into triangles, and vertices in
+    /// exactly the same place are one.
+    ///
+    /// # Errors
+    /// [`SurfaceFault::Kind`], [`SurfaceFault::File`] with the line or byte, [`SurfaceFault::Count`],
+    /// [`SurfaceFault::NotFinite`].
+    pub fn read(bytes: &[u8]) -> Result<Self, SurfaceFault> {
+        let mesh = if bytes.starts_with(b"ply") {
+            ply::read(bytes)?
+        } else if stl::is_binary(bytes) {
+            stl::read_binary(bytes)?
+        } else {
+            let text = String::from_utf8_lossy(bytes);
+            if text.trim_start().starts_with("solid") {
+                stl::read_text(&text)?
+            } else if text.lines().any(|line| line.trim_start().starts_with("v ")) {
+                obj::read(&text)?
+            } else {
+                return Err(SurfaceFault::Kind);
+            }
+        };
+        at_most(mesh.triangles.len())?;
+        if mesh.triangles.len() < 4 {
+            return Err(SurfaceFault::Count { n: mesh.triangles.len() });
+        }
+        let is_finite = |vertex: &Point<3>| vertex.iter().all(|x| x.is_finite());
+        if let Some(vertex) = mesh.vertices.iter().position(|vertex| !is_finite(vertex)) {
+            return Err(SurfaceFault::NotFinite { vertex });
+        }
+        Ok(mesh.joined())
+    }
+
+    /// The same with one vertex at each place, and none that no triangle has.
+    fn joined(&self) -> Self {
+        let mut numbers: HashMap<[u64; 3], u32> = HashMap::new();
+        let mut joined = Self::default();
+        for triangle in &self.triangles {
+            joined.triangles.push(triangle.map(|vertex| {
+                let at = self.vertices[vertex as usize];
+                // Zero is zero, whatever its sign
+                let key = [at.x, at.y, at.z].map(|x| (x + 0.0).to_bits());
+                *numbers.entry(key).or_insert_with(|| {
+                    joined.vertices.push(at);
+                    index_u32(joined.vertices.len() - 1)
+                })
+            }));
+        }
+        joined
+    }
+}
+
+/// A fault of a file at a line, counted from 0.
+pub fn at_line(line: usize, found: impl Into<String>) -> SurfaceFault {
+    SurfaceFault::File { place: format!("line {}", line + 1), found: found.into() }
+}
+
+/// The triangles of a polygon with these corners, as a fan.
+pub fn fan(polygon: &[u32]) -> impl Iterator<Item = [u32; 3]> + '_ {
+    (2..polygon.len()).map(|i| [polygon[0], polygon[i - 1], polygon[i]])
+}

@@ -1,0 +1,5 @@
+//! Problems of how bodies move as a whole.
+
+pub(in crate::rules) mod by_axis;
+pub(in crate::rules) mod initial;
+pub(in crate::rules) mod mass;

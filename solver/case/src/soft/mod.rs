@@ -1,0 +1,12 @@
+//! Soft cases: an elastic body without a flow, what it is told, what it is compared with, and what is sought.
+
+mod parameters;
+mod read;
+mod rules;
+pub mod search;
+pub mod solid;
+pub mod spec;
+
+pub use parameters::{KeyError, ParameterKey};
+pub use read::{BesideFile, SoftFile, schema};
+pub use rules::check;

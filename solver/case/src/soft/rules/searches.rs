@@ -1,0 +1,179 @@
+//! What a soft case may seek, and what it may be compared with.
+
+use super::mistakes::Mistakes;
+use crate::soft::ParameterKey;
+use crate::soft::search::{ObjectiveSpec, Parameter, SearchSettings};
+use crate::soft::spec::ReferenceOf;
+
+pub fn check(mistakes: &mut Mistakes<'_>) {
+    let case = mistakes.case().clone();
+    if let Some(calibration) = &case.calibration {
+        if !case.marker.iter().any(|marker| !marker.columns.is_empty()) {
+            let message = "nothing recorded can be compared with".to_owned();
+            let help = "add [record], and `columns` to the markers that are in it";
+            mistakes.add("calibration", message, help);
+        }
+        parameters(mistakes, "calibration", &calibration.parameter);
+        settings(mistakes, "calibration", &calibration.search);
+    }
+    if let Some(optimisation) = &case.optimisation {
+        let kind = match &optimisation.objective {
+            ObjectiveSpec::Travel { cost_of_work, .. } => {
+                let key = "optimisation.objective.travel.cost_of_work";
+                mistakes.not_negative(key, *cost_of_work);
+                "travel"
+            }
+            ObjectiveSpec::WayPerWork { .. } => "way-per-work",
+        };
+        let key = format!("optimisation.objective.{kind}.direction");
+        mistakes.direction(&key, optimisation.objective.direction());
+        if case.marker.is_empty() {
+            let message = "the way of the markers is sought, and there are none".to_owned();
+            mistakes.add("optimisation.objective", message, "add [[marker]]");
+        }
+        parameters(mistakes, "optimisation", &optimisation.parameter);
+        settings(mistakes, "optimisation", &optimisation.search);
+    }
+    for key in case.robot.iter().flat_map(|robot| robot.set.keys()) {
+        match ParameterKey::find(&case, key) {
+            Ok(found) if found.len() == 1 => {}
+            Ok(_) => {
+                let message = format!("`{key}` is a list");
+                mistakes.add("robot.set", message, "give the key of one number in it");
+            }
+            Err(error) => mistakes.add("robot.set", error.message, &error.help),
+        }
+    }
+    references(mistakes);
+}
+
+fn settings(mistakes: &mut Mistakes<'_>, key: &str, search: &SearchSettings) {
+    if search.evaluations == 0 {
+        let at = format!("{key}.search.evaluations");
+        mistakes.add(&at, format!("`{at}` is 0"), "write 1 or more");
+    }
+    mistakes.positive(&format!("{key}.search.decrease"), search.decrease);
+    mistakes.positive(&format!("{key}.search.slope"), search.slope);
+}
+
+fn parameters(mistakes: &mut Mistakes<'_>, of: &str, parameters: &[Parameter]) {
+    if parameters.is_empty() {
+        let message = format!("[{of}] seeks nothing");
+        mistakes.add(of, message, &format!("add [[{of}.parameter]]"));
+    }
+    let mut taken: Vec<ParameterKey> = Vec::new();
+    for (index, parameter) in parameters.iter().enumerate() {
+        let at = format!("{of}.parameter.{index}");
+        if parameters[..index].iter().any(|other| other.name == parameter.name) {
+            let message = format!("two parameters are called \"{}\"", parameter.name);
+            mistakes.add(&format!("{at}.name"), message, "give each its own name");
+        }
+        if parameter.keys.is_empty() {
+            let message = format!("\"{}\" has no keys", parameter.name);
+            mistakes.add(&format!("{at}.keys"), message, "name the key of a number of the case");
+        }
+        let mut n_numbers = None;
+        for (nth, key) in parameter.keys.iter().enumerate() {
+            let here = format!("{at}.keys.{nth}");
+            let found = match ParameterKey::find(mistakes.case(), key) {
+                Ok(found) => found,
+                Err(error) => {
+                    mistakes.add(&here, error.message, &error.help);
+                    continue;
+                }
+            };
+            if *n_numbers.get_or_insert(found.len()) != found.len() {
+                let message = format!("the keys of \"{}\" have different lengths", parameter.name);
+                mistakes.add(&here, message, "name numbers, or lists of one length");
+            }
+            if found.iter().any(|one| taken.contains(one)) {
+                let message = format!("`{key}` is sought twice");
+                mistakes.add(&here, message, "take it out of one of the parameters");
+            }
+            for one in &found {
+                limits(mistakes, &at, parameter, *one);
+            }
+            taken.extend(found);
+        }
+        bounds(mistakes, &at, parameter);
+    }
+}
+
+/// Bounds and start of a parameter.
+fn bounds(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter) {
+    let [lower, upper] = parameter.bounds;
+    let key = format!("{at}.bounds");
+    let name = &parameter.name;
+    if lower > upper {
+        let message = format!("the bounds of \"{name}\" are {lower} and {upper}");
+        return mistakes.add(&key, message, "write the smaller number first");
+    }
+    match parameter.scale {
+        Some(scale) => mistakes.positive(&format!("{at}.scale"), scale),
+        None if lower <= 0.0 => {
+            let message = format!("the lower bound of \"{name}\" is {lower}, and has no logarithm");
+            mistakes.add(&key, message, "add `scale`, the size of a change that matters");
+        }
+        None => {}
+    }
+    let case = mistakes.case().clone();
+    let numbers = parameter.keys.first().and_then(|key| ParameterKey::find(&case, key).ok());
+    for number in numbers.unwrap_or_default() {
+        let Some(start) = parameter.start.or_else(|| number.read(&case)) else { continue };
+        if !(lower <= start && start <= upper) {
+            let message = format!(
+                "\"{name}\" starts at {start}, which is not between its bounds {lower} and {upper}"
+            );
+            let (key, help) = match parameter.start {
+                Some(_) => (format!("{at}.start"), "move the start, or widen `bounds`"),
+                None => (key, "widen them, or add a `start` between them"),
+            };
+            return mistakes.add(&key, message, help);
+        }
+    }
+}
+
+/// What a number may be at all.
+fn limits(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter, key: ParameterKey) {
+    let [lower, upper] = parameter.bounds;
+    let wrong = match key {
+        ParameterKey::Young(_)
+        | ParameterKey::FibreStiffness(_)
+        | ParameterKey::Constant(_)
+        | ParameterKey::Frame(..)
+        | ParameterKey::Wave(_, 2)
+            if lower <= 0.0 =>
+        {
+            Some("write a lower bound above 0: this number cannot be 0 or below")
+        }
+        ParameterKey::Poisson(_) if lower <= -1.0 || upper >= 0.5 => {
+            Some("Poisson's ratio is above -1 and below 0.5: write bounds between them")
+        }
+        _ => None,
+    };
+    if let Some(help) = wrong {
+        let message = format!("the bounds of \"{}\" are {lower} and {upper}", parameter.name);
+        mistakes.add(&format!("{at}.bounds"), message, help);
+    }
+}
+
+fn references(mistakes: &mut Mistakes<'_>) {
+    let case = mistakes.case().clone();
+    for (index, reference) in case.reference.iter().enumerate() {
+        let at = format!("reference.{index}");
+        if reference.relative.is_some() == reference.absolute.is_some() {
+            let message =
+                format!("the reference for `{}` has no single tolerance", reference.quantity);
+            mistakes.add(&at, message, "write one of `relative` and `absolute`");
+        }
+        let absent = match reference.of {
+            ReferenceOf::Calibration if case.calibration.is_none() => Some("calibration"),
+            ReferenceOf::Optimisation if case.optimisation.is_none() => Some("optimisation"),
+            _ => None,
+        };
+        if let Some(absent) = absent {
+            let message = format!("a reference is of a {absent}, and the case has none");
+            mistakes.add(&format!("{at}.of"), message, &format!("add [{absent}]"));
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! `[calibration]`, `[optimisation]` and `[robot]`: which numbers are sought, and for what.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+#[cfg(test)]
+use crate::spec::number::{NonNegative, Positive};
+
+/// `[calibration]`: numbers that make the markers move as recorded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Calibration {
+    /// The numbers.
+    pub parameter: Vec<Parameter>,
+    /// How the search ends.
+    #[serde(default)]
+    pub search: SearchSettings,
+}
+
+/// `[optimisation]`: numbers that make an objective large.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Optimisation {
+    /// What is made large.
+    pub objective: ObjectiveSpec,
+    /// The numbers.
+    pub parameter: Vec<Parameter>,
+    /// How the search ends.
+    #[serde(default)]
+    pub search: SearchSettings,
+}
+
+/// What an optimisation makes large.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ObjectiveSpec {
+    /// The way of the markers on average along a direction (m), less what its work costs.
+    Travel {
+        /// The direction.
+        direction: Vec<f64>,
+        /// The way that a unit of work costs (m/J).
+        #[serde(default)]
+        #[cfg_attr(test, schemars(with = "NonNegative"))]
+        cost_of_work: f64,
+    },
+    /// That way over the work that the commands put into the fibres (m/J).
+    WayPerWork {
+        /// The direction.
+        direction: Vec<f64>,
+    },
+}
+
+impl ObjectiveSpec {
+    /// The direction of the way.
+    #[must_use]
+    pub fn direction(&self) -> &[f64] {
+        match self {
+            Self::Travel { direction, .. } | Self::WayPerWork { direction } => direction,
+        }
+    }
+}
+
+/// `parameter`: a number of the case, or several that are one, which a search finds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Parameter {
+    /// Its name, in messages and reports.
+    pub name: String,
+    /// Keys of the case that have its value, such as `solid.0.material.young`. One key of a list, such as
+    /// `solid.0.fibre.0.stretch.frames`, stands for one parameter an entry.
+    #[cfg_attr(test, schemars(length(min = 1)))]
+    pub keys: Vec<String>,
+    /// Where the search starts; at the value of the first key if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<f64>,
+    /// Lower and upper bound.
+    pub bounds: [f64; 2],
+    /// The size of a change that matters; the logarithm is searched if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+    pub scale: Option<f64>,
+}
+
+/// `search`: how a search ends.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(default, deny_unknown_fields)]
+pub struct SearchSettings {
+    /// Evaluations at most.
+    pub evaluations: usize,
+    /// Relative decrease in an iteration that ends it.
+    #[cfg_attr(test, schemars(with = "Positive"))]
+    pub decrease: f64,
+    /// Slope, of the objective at the start, below which no parameter would change it.
+    #[cfg_attr(test, schemars(with = "Positive"))]
+    pub slope: f64,
+}
+
+impl Default for SearchSettings {
+    fn default() -> Self {
+        Self { evaluations: 100, decrease: 1e-6, slope: 1e-6 }
+    }
+}
+
+/// `[robot]`: the case with other numbers, which stands for the robot.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Robot {
+    /// Numbers of the case that differ, by their keys.
+    pub set: BTreeMap<String, f64>,
+}

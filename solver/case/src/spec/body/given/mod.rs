@@ -1,0 +1,4 @@
+//! Shapes given corner by corner or triangle by triangle, also by files.
+
+pub(crate) mod polygon;
+pub(crate) mod surface;

@@ -1,0 +1,91 @@
+//! Adjoint flows: the transposed system at a solution.
+//!
+//! A quantity J of the raw unknowns x = P y + g has the adjoint lambda with (P^T R' P)^T lambda = P^T J'. What a
+//! parameter then changes of J is what it changes of J - lambda . P^T R with y kept.
+
+use super::super::error::SolveError;
+use super::super::problem::Problem;
+use super::super::solution::Solution;
+use super::{Configuration, FluidSystem};
+use crate::algebra::AffineConstraints;
+use crate::flow::{FlowTerms, transposed_product};
+use crate::timing::Timing;
+
+impl<const D: usize> FluidSystem<D> {
+    /// The adjoints, by free unknowns, of quantities with these derivatives by the raw unknowns at a solution. Solved for by
+    /// the factors of its matrix; where systems are solved by iterations that matrix has to be symmetric.
+    ///
+    /// # Errors
+    /// When the matrix is singular.
+    pub fn adjoints(
+        &mut self,
+        at: &Configuration<'_, D>,
+        terms: &FlowTerms<'_, D>,
+        solution: &Solution<D>,
+        derivatives: &[Vec<f64>],
+        timing: &mut Timing,
+    ) -> Result<Vec<Vec<f64>>, SolveError> {
+        self.linearise(at, terms, solution, timing)?;
+        // That is a limit for flows
+        self.linear.limit_mass(f64::INFINITY);
+        let mut adjoint = |derivative: &Vec<f64>| -> Result<Vec<f64>, SolveError> {
+            let mut raw = derivative.clone();
+            if at.problem.is_enclosed() {
+                self.pressure.before_centering(&mut raw[self.layout.pressures()]);
+            }
+            let mut rhs = at.constraints.restrict(&raw);
+            let solved = self.linear.solve_transposed(&mut rhs, timing);
+            solved.map_err(|error| self.explain(at, error))?;
+            Ok(rhs)
+        };
+        derivatives.iter().map(&mut adjoint).collect()
+    }
+
+    /// The derivative by the raw unknowns of the product of the fluid's raw residual with weights.
+    #[must_use]
+    pub fn derivative_of_residual(
+        &self,
+        at: &Configuration<'_, D>,
+        terms: &FlowTerms<'_, D>,
+        solution: &Solution<D>,
+        weights: &[f64],
+    ) -> Vec<f64> {
+        transposed_product(&self.assembly, at.mesh, terms, &solution.fields(), weights)
+    }
+
+    /// The free unknowns of a solution, at the level of the pressure that the constraints give it.
+    #[must_use]
+    pub fn free_unknowns(
+        &self,
+        problem: &Problem<D>,
+        constraints: &AffineConstraints,
+        solution: &Solution<D>,
+    ) -> Vec<f64> {
+        let mut raw = solution.to_raw(self.modes);
+        if problem.is_enclosed() {
+            let pressures = self.layout.pressures();
+            let level = pressures.clone().find(|&index| {
+                constraints.unknown(index).is_none() && constraints.row(index).is_empty()
+            });
+            if let Some(level) = level {
+                let off = raw[level] - constraints.value(level);
+                raw[pressures].iter_mut().for_each(|pressure| *pressure -= off);
+            }
+        }
+        constraints.pick(&raw)
+    }
+
+    /// The solution with these free unknowns, the pressure of an enclosed flow with zero mean.
+    #[must_use]
+    pub fn solution_of(
+        &self,
+        problem: &Problem<D>,
+        constraints: &AffineConstraints,
+        free: &[f64],
+    ) -> Solution<D> {
+        let raw = constraints.expand(free);
+        let mut solution = Solution::from_raw(&self.layout, self.modes, &raw);
+        self.center_pressure(problem, &mut solution);
+        solution
+    }
+}

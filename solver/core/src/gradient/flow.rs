@@ -1,0 +1,190 @@
+//! `BaseFlow`: the steady flow of a case, its quantities and their adjoints.
+
+use super::error::GradientError;
+use super::mesh_of_bodies::MeshOfBodies;
+use super::objective::Weights;
+use super::point::CasePoint;
+use super::refusals::refuse;
+use crate::case::{CaseFile, Column, Steady};
+use crate::coupling::{
+    BodyLoads, FluidSystem, LoadDerivatives, ResidualAt, ResidualOnMesh, Solution, SurfaceLoads,
+    load_derivatives,
+};
+use crate::run::{BodiesInFlow, CaseMesh, Dimension, RunError, simulation_with, steady_value};
+use crate::step::{
+    SteadyFlow, SteadyTask, Workspace, solve_steady, steady_convection, steady_terms,
+};
+
+/// The steady flow of a case.
+pub(super) struct BaseFlow<const D: usize> {
+    /// The mesh for other numbers.
+    pub mesh: MeshOfBodies<D>,
+    /// The case.
+    pub point: CasePoint<D>,
+    /// The system on its mesh.
+    pub work: Workspace<D>,
+    columns: Vec<Column>,
+    solution: Solution<D>,
+    /// Raw residual of the fluid's equations at it.
+    residual: Vec<f64>,
+    free: Vec<f64>,
+    values: Vec<f64>,
+}
+
+/// Largest residual of a flow relative to that at rest.
+const TOLERANCE: f64 = 1e-11;
+
+impl<const D: usize> BaseFlow<D>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    /// Solves for the flow of a case.
+    pub fn solve(file: &CaseFile, columns: Vec<Column>) -> Result<Self, GradientError> {
+        let model = &file.model;
+        let simulation = simulation_with::<D>(model, |_| Ok(()))?;
+        let (problem, mut work, shifts) =
+            (simulation.problem, simulation.work, simulation.state.image_shifts.clone());
+        refuse(file, &problem, work.system.is_iterative())?;
+        let mesh = MeshOfBodies::new(model, &problem, &work.mesh, &shifts)?;
+        let point = CasePoint::new(file.clone(), problem, work.mesh.clone(), &shifts)?;
+        let SteadyFlow { solution, residual, .. } = steady_flow(&mut work, &point)?;
+        let constraints = work.system.constraints(&point.problem, &point.mesh, point.bodies());
+        let free = work.system.free_unknowns(&point.problem, &constraints, &solution);
+        let loads = surface_loads(&work.system, &point, &solution, &residual);
+        let values = values(&columns, &point, &solution, &loads.bodies);
+        Ok(Self { mesh, point, work, columns, solution, residual, free, values })
+    }
+}
+
+/// The steady flow of a case on the mesh of a workspace.
+pub(super) fn steady_flow<const D: usize>(
+    work: &mut Workspace<D>,
+    point: &CasePoint<D>,
+) -> Result<SteadyFlow<D>, GradientError> {
+    let settings =
+        Steady { tolerance: point.settings.tolerance.min(TOLERANCE), ..point.settings.clone() };
+    let task = SteadyTask {
+        bodies: point.bodies(),
+        equations: point.equations(),
+        settings: &settings,
+        has_convection: point.problem.has_convection,
+        stop: None,
+    };
+    let flow = solve_steady(work, &point.problem, &task);
+    Ok(flow.map_err(|failure| RunError::from(*failure.error))?)
+}
+
+/// The loads of a flow with the raw residual of its equations.
+pub(super) fn surface_loads<const D: usize>(
+    system: &FluidSystem<D>,
+    point: &CasePoint<D>,
+    solution: &Solution<D>,
+    residual: &[f64],
+) -> SurfaceLoads {
+    // Steady flows are those of time zero
+    let found = ResidualAt { solution, residual, time: 0.0 };
+    system.surface_loads(&point.problem, &point.mesh, &point.in_mesh, found)
+}
+
+/// The values of quantities of a flow.
+pub(super) fn values<const D: usize>(
+    columns: &[Column],
+    point: &CasePoint<D>,
+    solution: &Solution<D>,
+    loads: &[BodyLoads],
+) -> Vec<f64> {
+    let bodies = BodiesInFlow {
+        problem: &point.problem,
+        poses: &point.poses,
+        twists: &solution.twists,
+        loads,
+    };
+    let value = |column| steady_value(&point.model.case, column, &bodies).unwrap_or(f64::NAN);
+    columns.iter().map(value).collect()
+}
+
+impl<const D: usize> BaseFlow<D> {
+    /// The values of the quantities.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The columns of the quantities.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// The adjoint of each quantity, by free unknowns.
+    pub fn adjoints(&mut self) -> Result<Vec<Vec<f64>>, GradientError> {
+        let derivatives: Vec<Vec<f64>> =
+            self.columns.iter().map(|column| self.derivative(column)).collect();
+        let Self { point, work, solution, .. } = self;
+        let Workspace { system, timing, .. } = work;
+        let constraints = system.constraints(&point.problem, &point.mesh, point.bodies());
+        let convection = steady_convection(&point.problem, solution);
+        let terms = steady_terms(&point.problem, &convection, solution);
+        let at = point.configuration(&constraints);
+        Ok(system.adjoints(&at, &terms, solution, &derivatives, timing)?)
+    }
+
+    /// The derivative of a quantity by the raw unknowns.
+    fn derivative(&self, column: &Column) -> Vec<f64> {
+        let Self { point, work, solution, residual, .. } = self;
+        let system = &work.system;
+        let loads = surface_loads(system, point, solution, residual);
+        let bodies = BodiesInFlow {
+            problem: &point.problem,
+            poses: &point.poses,
+            twists: &solution.twists,
+            loads: &loads.bodies,
+        };
+        let weights = Weights::of(&point.model.case, column, &bodies);
+        let flow = ResidualOnMesh {
+            mesh: &point.mesh,
+            layout: &system.layout,
+            boundaries: &system.boundaries,
+            velocity: &solution.velocity,
+            residual,
+        };
+        let LoadDerivatives { by_residual, by_solution: mut derivative } =
+            load_derivatives(&point.problem, &point.in_mesh, &flow, &weights.loads);
+        let constraints = system.constraints(&point.problem, &point.mesh, point.bodies());
+        let convection = steady_convection(&point.problem, solution);
+        let terms = steady_terms(&point.problem, &convection, solution);
+        let at = point.configuration(&constraints);
+        let by_flow = system.derivative_of_residual(&at, &terms, solution, &by_residual);
+        derivative.iter_mut().zip(&by_flow).for_each(|(sum, value)| *sum += value);
+        for (body, twist) in weights.twists.iter().enumerate() {
+            for (position, mode) in point.problem.modes().iter().enumerate() {
+                derivative[system.layout.rigid(body, position)] += twist[mode];
+            }
+        }
+        derivative
+    }
+
+    /// Each quantity less the product of its adjoint with the residual, of a case with other numbers and the free unknowns
+    /// of this flow.
+    pub fn lagrangians(
+        &mut self,
+        at: &CasePoint<D>,
+        adjoints: &[Vec<f64>],
+    ) -> Result<Vec<f64>, GradientError> {
+        let Self { work, columns, free, .. } = self;
+        let system = &mut work.system;
+        system.move_to(&at.problem, &at.mesh);
+        let constraints = system.constraints(&at.problem, &at.mesh, at.bodies());
+        let solution = system.solution_of(&at.problem, &constraints, free);
+        let convection = steady_convection(&at.problem, &solution);
+        let terms = steady_terms(&at.problem, &convection, &solution);
+        let configuration = at.configuration(&constraints);
+        let residual = system.fluid_residual(&configuration, &terms, &solution);
+        let reduced = system.reduced_residual(&configuration, &solution, &residual);
+        let loads = surface_loads(system, at, &solution, &residual);
+        let values = values(columns, at, &solution, &loads.bodies);
+        let less = |(value, adjoint): (f64, &Vec<f64>)| {
+            let product: f64 = adjoint.iter().zip(&reduced).map(|(one, other)| one * other).sum();
+            value - product
+        };
+        Ok(values.into_iter().zip(adjoints).map(less).collect())
+    }
+}

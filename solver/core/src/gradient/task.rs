@@ -1,0 +1,154 @@
+//! `GradientTask`: which quantities of a case, by which of its numbers.
+
+use super::differences::Differences;
+use super::error::GradientError;
+use super::flow::BaseFlow;
+use super::objective::objectives;
+use super::parameter::{Parameter, parameters};
+use super::point::CasePoint;
+use crate::case::{CaseError, CaseFile};
+use crate::run::{CaseMesh, Dimension};
+
+/// Reads a case with further settings, `KEY=VALUE` each.
+pub type ReadCase<'a> = &'a dyn Fn(&[String]) -> Result<CaseFile, CaseError>;
+
+/// Which quantities of a case, by which of its numbers.
+#[derive(Clone, Copy)]
+pub struct GradientTask<'a> {
+    /// Reads the case.
+    pub read: ReadCase<'a>,
+    /// Quantities by the names of their columns, such as `ball.force.x`.
+    pub of: &'a [String],
+    /// Keys of numbers, such as `body.0.shape.disc.radius`.
+    pub by: &'a [String],
+    /// Whether each derivative is compared with a difference of complete solutions.
+    pub checks: bool,
+}
+
+/// A quantity with its derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Derivatives {
+    /// Name of its column.
+    pub of: String,
+    /// Its value.
+    pub value: f64,
+    /// By each number, in the order in which they were asked for.
+    pub by: Vec<f64>,
+    /// The same by central differences of complete solutions on the mesh that moves with the number; empty unless asked
+    /// for.
+    pub differences: Vec<f64>,
+}
+
+/// The values of quantities of the steady flow of a case, and their derivatives.
+///
+/// # Errors
+/// [`GradientError`]: the case, a quantity or a key is none of those, or there is no flow.
+pub fn gradients(task: &GradientTask<'_>) -> Result<Vec<Derivatives>, GradientError> {
+    // The expectations of the author are those of the case as it is written
+    let file = (task.read)(&["numbers={}".to_owned()])?;
+    if file.case().geometry.dimensions() == 3 {
+        gradients_in::<3>(task, &file)
+    } else {
+        gradients_in::<2>(task, &file)
+    }
+}
+
+/// A number of a case, as a search sets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NumberAt<'a> {
+    /// Its key.
+    pub key: &'a str,
+    /// Its value.
+    pub value: f64,
+}
+
+/// A quantity of the steady flow of a case with other numbers, and its derivatives by them: what a search asks for.
+///
+/// # Errors
+/// As [`gradients`].
+pub fn value_and_gradient(
+    read: ReadCase<'_>,
+    of: &str,
+    numbers: &[NumberAt<'_>],
+) -> Result<Derivatives, GradientError> {
+    let setting = |number: &NumberAt<'_>| format!("{}={:?}", number.key, number.value);
+    let here: Vec<String> = numbers.iter().map(setting).collect();
+    let read = |more: &[String]| read(&[&here[..], more].concat());
+    let by: Vec<String> = numbers.iter().map(|number| number.key.to_owned()).collect();
+    let task = GradientTask { read: &read, of: &[of.to_owned()], by: &by, checks: false };
+    let mut found = gradients(&task)?;
+    Ok(found.swap_remove(0))
+}
+
+fn gradients_in<const D: usize>(
+    task: &GradientTask<'_>,
+    file: &CaseFile,
+) -> Result<Vec<Derivatives>, GradientError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    let columns = objectives(&file.model, task.of)?;
+    let parameters = parameters(file, task.by)?;
+    let mut flow = BaseFlow::<D>::solve(file, columns)?;
+    let adjoints = flow.adjoints()?;
+    let values = flow.values().iter().zip(task.of);
+    let empty = |(value, name): (&f64, &String)| Derivatives {
+        of: name.clone(),
+        value: *value,
+        by: Vec::new(),
+        differences: Vec::new(),
+    };
+    let mut found: Vec<Derivatives> = values.map(empty).collect();
+    for parameter in &parameters {
+        let ends = ends::<D>(task, &flow, parameter)?;
+        let sides = [
+            flow.lagrangians(&ends.points[0], &adjoints)?,
+            flow.lagrangians(&ends.points[1], &adjoints)?,
+        ];
+        for (quantity, derivatives) in found.iter_mut().enumerate() {
+            derivatives.by.push((sides[1][quantity] - sides[0][quantity]) / (2.0 * ends.step));
+        }
+    }
+    if task.checks {
+        let mut differences = Differences::new(flow);
+        for parameter in &parameters {
+            let ends = ends::<D>(task, differences.flow(), &parameter.with_longer_step())?;
+            let by_number = differences.between(&ends.points, ends.step)?;
+            for (derivatives, difference) in found.iter_mut().zip(by_number) {
+                derivatives.differences.push(difference);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The case at both sides of the value of a number.
+struct Ends<const D: usize> {
+    points: [CasePoint<D>; 2],
+    /// How far each is from the value.
+    step: f64,
+}
+
+/// Part of an edge by which nodes on bodies move at most.
+const WAY: f64 = 0.02;
+
+fn ends<const D: usize>(
+    task: &GradientTask<'_>,
+    flow: &BaseFlow<D>,
+    parameter: &Parameter,
+) -> Result<Ends<D>, GradientError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    let at = |value: f64| -> Result<CasePoint<D>, GradientError> {
+        let settings = ["numbers={}".to_owned(), parameter.setting(value)];
+        flow.mesh.point((task.read)(&settings)?)
+    };
+    let mut step = parameter.step;
+    let mut above = at(parameter.value + step)?;
+    if above.way > WAY {
+        step *= WAY / above.way;
+        above = at(parameter.value + step)?;
+    }
+    Ok(Ends { points: [at(parameter.value - step)?, above], step })
+}

@@ -1,0 +1,17 @@
+//! Searches for the parameters that make an objective with a gradient small, whatever it is an objective of.
+
+mod bounded;
+mod certainty;
+mod error;
+mod journal;
+mod minimise;
+mod progress;
+mod sought;
+
+pub use bounded::Bounded;
+pub use certainty::{Certainty, certainties};
+pub use error::SearchError;
+pub use journal::{Journal, Opened};
+pub use minimise::{Ended, Evaluated, Found, Search, minimise};
+pub use progress::{Progress, search};
+pub use sought::Sought;

@@ -1,0 +1,68 @@
+//! `search`: a search with a journal, and its progress.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use super::{Bounded, Evaluated, Found, Journal, Opened, Search, SearchError, Sought, minimise};
+
+/// How far a search is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Progress {
+    /// Evaluations so far, those of an earlier process included.
+    pub n_evaluations: usize,
+    /// Evaluations at most.
+    pub most: usize,
+    /// The last evaluation.
+    pub last: Evaluated,
+    /// The smallest objective so far.
+    pub best: f64,
+    /// Mean time of an evaluation in this process.
+    pub each: Duration,
+}
+
+impl Progress {
+    /// Time that all evaluations which may still come would take: an upper bound.
+    #[must_use]
+    pub fn remaining(&self) -> Duration {
+        let n = self.most.saturating_sub(self.n_evaluations);
+        self.each.saturating_mul(u32::try_from(n).unwrap_or(u32::MAX))
+    }
+}
+
+/// Makes an objective small, with all evaluations in a journal: what stands there is not evaluated again, and so
+/// a search that was killed goes on with the same bits. `name` says which search it is, `told` is called after
+/// each evaluation.
+///
+/// # Errors
+/// Those of [`minimise`] and [`Journal::open`].
+pub fn search(
+    parameters: &[Bounded],
+    settings: &Search,
+    [journal, name]: [&str; 2],
+    sought: &mut dyn Sought,
+    told: &mut dyn FnMut(&Progress),
+) -> Result<Found, SearchError> {
+    for parameter in parameters {
+        parameter.check()?;
+    }
+    let Opened { mut journal, known } = Journal::open(Path::new(journal), name)?;
+    let mut best = known.iter().map(|found| found.objective).fold(f64::INFINITY, f64::min);
+    let mut n_evaluations = known.len();
+    let (begun, n_known) = (Instant::now(), known.len());
+    let settings = Search { known, ..settings.clone() };
+    minimise(parameters, &settings, |values| {
+        let last = sought.evaluate(values)?;
+        journal.add(&last).map_err(|error| error.to_string())?;
+        n_evaluations += 1;
+        best = best.min(last.objective);
+        let n_here = u32::try_from(n_evaluations - n_known).unwrap_or(u32::MAX);
+        told(&Progress {
+            n_evaluations,
+            most: settings.max_evaluations,
+            last: last.clone(),
+            best,
+            each: begun.elapsed() / n_here,
+        });
+        Ok::<_, String>(last)
+    })
+}

@@ -1,0 +1,272 @@
+//! `Job`: a calibration or an optimisation of a soft case from beginning to end.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use alewife_case::soft::SoftFile;
+use alewife_case::soft::search::SearchSettings;
+use alewife_case::soft::spec::{ReferenceOf, SoftCase};
+use serde_json::{Value, json};
+
+use super::compare::{Compared, compare};
+use super::evaluate::{Kind, Seeker, WayAndWork};
+use super::mesh::{Bodies, SolidOf};
+use super::model::{Model, TierError};
+use super::output::{fingerprint, write_case};
+use super::parameters::Sought;
+use super::rounds::settings;
+use crate::search::{
+    Bounded, Certainty, Ended, Evaluated, Found, Progress, SearchError, certainties, search,
+};
+
+/// The rise of a loss, of that at the start, that counts as one where parameters are called determined.
+const RISE: f64 = 0.05;
+
+/// The file of evaluations, by which a search goes on.
+const JOURNAL: &str = "search.journal";
+
+/// Which of the searches of a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Which {
+    /// `[calibration]`.
+    Calibration,
+    /// `[optimisation]`.
+    Optimisation,
+}
+
+impl Which {
+    /// Its table.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Calibration => "calibration",
+            Self::Optimisation => "optimisation",
+        }
+    }
+}
+
+/// A search of a case.
+pub struct Job<'a, const D: usize> {
+    file: &'a SoftFile,
+    which: Which,
+    search: SearchSettings,
+    seeker: Seeker<D>,
+}
+
+/// What a search came to.
+#[derive(Debug, Clone)]
+pub struct JobResult {
+    /// What was found.
+    pub found: Found,
+    /// The numbers that were sought.
+    pub bounded: Vec<Bounded>,
+    /// How well each is determined; why that is not known, where it is not.
+    pub certainties: Result<Vec<Certainty>, String>,
+    /// Way and work at the best, of an optimisation.
+    pub way_and_work: Option<WayAndWork>,
+    /// The case with what was found.
+    pub case: SoftCase,
+    /// References beside what was found.
+    pub compared: Vec<Compared>,
+}
+
+impl<'a, const D: usize> Job<'a, D>
+where
+    Bodies: SolidOf<D>,
+{
+    /// Makes a search of a case ready.
+    ///
+    /// # Errors
+    /// Those of a model, and where the case has no such search.
+    pub fn new(file: &'a SoftFile, which: Which) -> Result<Self, TierError> {
+        let model = Model::new(file)?;
+        let absent = |what: &str, help: &str| {
+            TierError::from(file.error("", format!("the case has no {what}"), help))
+        };
+        let (parameters, search, kind) = match which {
+            Which::Calibration => {
+                let help = "add [calibration] with the numbers that are sought";
+                let Some(own) = &file.case.calibration else {
+                    return Err(absent("[calibration]", help));
+                };
+                let Some(recorded) = &model.recorded else {
+                    return Err(absent("[record]", "add the file of a recorded motion"));
+                };
+                let markers = model.markers(recorded.displacements.clone());
+                (&own.parameter, own.search, Kind::Calibration(markers))
+            }
+            Which::Optimisation => {
+                let help = "add [optimisation] with the numbers that are sought";
+                let Some(own) = &file.case.optimisation else {
+                    return Err(absent("[optimisation]", help));
+                };
+                (&own.parameter, own.search, Kind::Optimisation(own.objective.clone()))
+            }
+        };
+        let sought = Sought::new(&file.case, parameters);
+        Ok(Self { file, which, search, seeker: Seeker { model, sought, kind } })
+    }
+
+    /// Seeks, with the journal of the search in a directory: where there is one of this search already, it goes
+    /// on from there with the same bits.
+    ///
+    /// # Errors
+    /// Those of [`search`].
+    pub fn seek(
+        mut self,
+        directory: &Path,
+        told: &mut dyn FnMut(&Progress),
+    ) -> Result<JobResult, SearchError> {
+        let journal = directory.join(JOURNAL).display().to_string();
+        let name = format!(
+            "alewife {} of {}, version {}",
+            self.which.name(),
+            fingerprint(self.file),
+            env!("CARGO_PKG_VERSION")
+        );
+        let bounded = self.seeker.sought.bounded.clone();
+        let settings = settings(&self.search);
+        let found = search(&bounded, &settings, [&journal, &name], &mut self.seeker, told)?;
+        let first = found.all.first().map_or(0.0, |first| first.objective.abs());
+        let certainties = certainties(&bounded, &found.best, RISE * first, &mut self.seeker);
+        let case = {
+            let mut case = self.file.case.clone();
+            self.seeker.sought.write(&mut case, &found.best.values);
+            case
+        };
+        let way_and_work = self.way_and_work(&found.best);
+        let value = |quantity: &str| self.value(&found.best, way_and_work, quantity);
+        let of = match self.which {
+            Which::Calibration => ReferenceOf::Calibration,
+            Which::Optimisation => ReferenceOf::Optimisation,
+        };
+        let compared = compare(&self.file.case, of, &value);
+        Ok(JobResult { found, bounded, certainties, way_and_work, case, compared })
+    }
+
+    /// Way and work at values, of an optimisation.
+    fn way_and_work(&mut self, best: &Evaluated) -> Option<WayAndWork> {
+        let Kind::Optimisation(objective) = self.seeker.kind.clone() else { return None };
+        self.seeker.set(&best.values).ok()?;
+        let Model { body, plan, .. } = &self.seeker.model;
+        let motion = body.simulate(plan).ok()?;
+        Some(self.seeker.way_and_work(objective.direction(), &motion))
+    }
+
+    /// A quantity of what was found.
+    fn value(&self, best: &Evaluated, of: Option<WayAndWork>, quantity: &str) -> Option<f64> {
+        match (quantity, self.which) {
+            ("loss", Which::Calibration) => Some(best.objective),
+            ("objective", Which::Optimisation) => Some(-best.objective),
+            ("way", _) => of.map(|of| of.way),
+            ("work", _) => of.map(|of| of.work),
+            (name, _) => {
+                let parameters = &self.seeker.sought.bounded;
+                let at = parameters.iter().position(|one| one.name == name)?;
+                Some(best.values[at])
+            }
+        }
+    }
+}
+
+impl JobResult {
+    /// The report, as it is printed.
+    #[must_use]
+    pub fn text(&self, which: Which) -> String {
+        let Found { best, all, ended } = &self.found;
+        let ended = match ended {
+            Ended::Converged => "it converged".to_owned(),
+            Ended::Evaluations => "its evaluations are used up: the best so far".to_owned(),
+            Ended::Failed(why) => format!("it failed ({why}): the best so far"),
+        };
+        let sign = if which == Which::Calibration { 1.0 } else { -1.0 };
+        let what = if which == Which::Calibration { "loss" } else { "objective" };
+        let first = all.first().map_or(f64::NAN, |first| first.objective);
+        let mut text = format!(
+            "{} after {} evaluations: {what} {:.6e}, {:.6e} at the start; {ended}\n",
+            which.name(),
+            all.len(),
+            sign * best.objective,
+            sign * first
+        );
+        if let Some(WayAndWork { way, work }) = self.way_and_work {
+            let _ = writeln!(text, "way {way:.6e}, work {work:.6e}");
+        }
+        let width = self.bounded.iter().map(|one| one.name.len()).max().unwrap_or(0);
+        for (index, one) in self.bounded.iter().enumerate() {
+            let known = self.certainty(index);
+            let _ = writeln!(
+                text,
+                "  {:<width$}  {:.6e}  from {:.4e}, bounds {:.4e} {:.4e}  {known}",
+                one.name, best.values[index], one.start, one.lower, one.upper
+            );
+        }
+        if let Err(why) = &self.certainties {
+            let _ = writeln!(text, "how well they are determined is not known: {why}");
+        }
+        text
+    }
+
+    /// What is known of a number, in words.
+    fn certainty(&self, index: usize) -> String {
+        let Some(one) = self.certainties.as_ref().ok().map(|all| all[index]) else {
+            return String::new();
+        };
+        let value = self.found.best.values[index];
+        let word = if one.is_determined { "" } else { "UNDETERMINED: " };
+        match (one.reach, self.bounded[index].scale) {
+            (None, _) => format!("at its bound, slope {:.2e}", one.slope),
+            (Some(reach), _) if reach.is_infinite() => format!("{word}along a valley"),
+            (Some(reach), None) => format!("{word}within a factor of {:.3}", reach.exp()),
+            (Some(reach), Some(scale)) => {
+                format!("{word}within {:.2e} of {value:.3e}", reach * scale)
+            }
+        }
+    }
+
+    /// The report as JSON.
+    #[must_use]
+    pub fn to_json(&self, which: Which) -> Value {
+        let Found { best, all, ended } = &self.found;
+        let numbers: Vec<Value> = (0..self.bounded.len())
+            .map(|index| {
+                let one = &self.bounded[index];
+                let known = self.certainties.as_ref().ok().map(|all| all[index]);
+                json!({
+                    "name": one.name,
+                    "value": best.values[index],
+                    "start": one.start,
+                    "bounds": [one.lower, one.upper],
+                    "scale": one.scale,
+                    "slope": known.map(|known| known.slope),
+                    "reach": known.and_then(|known| known.reach).filter(|reach| reach.is_finite()),
+                    "determined": known.map(|known| known.is_determined),
+                })
+            })
+            .collect();
+        let ended = match ended {
+            Ended::Converged => "converged".to_owned(),
+            Ended::Evaluations => "evaluations".to_owned(),
+            Ended::Failed(why) => format!("failed: {why}"),
+        };
+        json!({
+            "search": which.name(),
+            "objective": best.objective,
+            "start": all.first().map(|first| first.objective),
+            "evaluations": all.len(),
+            "ended": ended,
+            "parameters": numbers,
+            "comparison": self.compared.iter().map(Compared::to_json).collect::<Vec<_>>(),
+        })
+    }
+
+    /// Writes `case.toml`, a case that runs with what was found, and `report.json`.
+    ///
+    /// # Errors
+    /// What the file system reports.
+    pub fn write(&self, directory: &Path, file: &SoftFile, which: Which) -> std::io::Result<()> {
+        write_case(directory, file, &self.case)?;
+        let report = format!("{:#}\n", self.to_json(which));
+        std::fs::write(directory.join("report.json"), report)
+    }
+}

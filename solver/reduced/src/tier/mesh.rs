@@ -1,0 +1,203 @@
+//! The mesh of a soft body, from a grid, an outline, a shape of the program or a file.
+
+use std::f64::consts::FRAC_PI_2;
+
+use alewife_mesh::{
+    Outline, PlacedShape, Point, Triangles, points_of_outline, read_undivided_msh,
+    triangulate_inside,
+};
+use alewife_solid::solid::{Order, SolidMesh};
+
+use alewife_case::Diagnostic;
+use alewife_case::soft::SoftFile;
+use alewife_case::soft::solid::{GridSpec, OutlineSpec, SoftSolid, SolidOrder};
+
+/// Meshes of bodies of this many dimensions.
+pub trait SolidOf<const D: usize> {
+    /// The mesh of the body of a case.
+    ///
+    /// # Errors
+    /// What is wrong with what it is made from.
+    fn mesh(file: &SoftFile, solid: &SoftSolid) -> Result<SolidMesh<D>, Diagnostic>;
+}
+
+/// Two and three dimensions.
+#[derive(Debug, Clone, Copy)]
+pub struct Bodies;
+
+impl SolidOf<2> for Bodies {
+    fn mesh(file: &SoftFile, solid: &SoftSolid) -> Result<SolidMesh<2>, Diagnostic> {
+        if solid.mesh.is_some() {
+            return given::<2>(file, solid);
+        }
+        if let Some(grid) = &solid.grid {
+            return cells(file, "solid.0.grid", squares(grid), solid.order);
+        }
+        let (key, triangles) = match &solid.outline {
+            Some(outline) => ("solid.0.outline.points", inside(file, solid, outline)?),
+            None => ("solid.0.shape", inside_of_shape(file, solid)?),
+        };
+        let all = triangles.cells.iter().map(|cell| cell.to_vec()).collect();
+        cells(file, key, (triangles.points, all), solid.order)
+    }
+}
+
+impl SolidOf<3> for Bodies {
+    fn mesh(file: &SoftFile, solid: &SoftSolid) -> Result<SolidMesh<3>, Diagnostic> {
+        if solid.mesh.is_some() {
+            return given::<3>(file, solid);
+        }
+        if let Some(grid) = &solid.grid {
+            return cells(file, "solid.0.grid", cubes(grid), solid.order);
+        }
+        let Some(outline) = &solid.outline else {
+            let message = "a shape of the plane has no inside in space".to_owned();
+            return Err(file.error("solid.0.shape", message, "write outline, grid or mesh"));
+        };
+        let plate = plate(&inside(file, solid, outline)?, outline);
+        cells(file, "solid.0.outline.points", plate, solid.order)
+    }
+}
+
+/// Nodes of a mesh, and the vertices of its cells.
+type Cells<const D: usize> = (Vec<Point<D>>, Vec<Vec<usize>>);
+
+fn cells<const D: usize>(
+    file: &SoftFile,
+    key: &str,
+    (nodes, cells): Cells<D>,
+    order: SolidOrder,
+) -> Result<SolidMesh<D>, Diagnostic> {
+    let mesh = SolidMesh::of_cells(nodes, &cells)
+        .map_err(|error| file.error(key, format!("it cannot be meshed: {error}"), "change it"))?;
+    Ok(if order == SolidOrder::Quadratic { mesh.quadratic() } else { mesh })
+}
+
+fn given<const D: usize>(file: &SoftFile, solid: &SoftSolid) -> Result<SolidMesh<D>, Diagnostic> {
+    let scale = solid.mesh.as_ref().map_or(1.0, |mesh| mesh.scale);
+    let bytes = file.mesh.as_ref().map_or(&[][..], |mesh| &mesh.bytes);
+    let mesh = read_undivided_msh::<D>(bytes, scale).map_err(|error| {
+        let name = file.mesh.as_ref().map_or("", |mesh| &mesh.name);
+        file.error("solid.0.mesh.file", format!("{name}: {}", error.found), &error.accepted)
+    })?;
+    let order = match solid.order {
+        SolidOrder::Linear => Order::Linear,
+        SolidOrder::Quadratic => Order::Quadratic,
+    };
+    Ok(SolidMesh::of_mesh(&mesh, order))
+}
+
+/// Triangles inside of a polygon.
+fn inside(
+    file: &SoftFile,
+    solid: &SoftSolid,
+    outline: &OutlineSpec,
+) -> Result<Triangles, Diagnostic> {
+    let corners: Vec<Point<2>> = outline.points.iter().map(|x| Point::<2>::from(*x)).collect();
+    triangulate_inside(&corners, solid.size.unwrap_or(f64::INFINITY)).map_err(|error| {
+        let help = "write the corners in order, without crossing sides";
+        file.error("solid.0.outline.points", error.to_string(), help)
+    })
+}
+
+/// Triangles inside of a shape of the plane.
+fn inside_of_shape(file: &SoftFile, solid: &SoftSolid) -> Result<Triangles, Diagnostic> {
+    let refused = |said: String| file.error("solid.0.shape", said, "change the shape");
+    let Some(shape) = &solid.shape else { return Err(refused("there is no shape".to_owned())) };
+    let size = solid.size.unwrap_or(f64::INFINITY);
+    let placed = PlacedShape {
+        name: solid.name.clone(),
+        shape: shape.outline(),
+        center: Point::<2>::zeros(),
+        angle: 0.0,
+        size: solid.size,
+    };
+    let outline = Outline::new(&placed).map_err(|error| refused(error.to_string()))?;
+    let corners = points_of_outline(&outline, size);
+    triangulate_inside(&corners, 2.0 * FRAC_PI_2 * size).map_err(|error| refused(error.to_string()))
+}
+
+/// A rectangle of squares, each of two triangles, divided in opposite ways in its two halves.
+fn squares(grid: &GridSpec) -> Cells<2> {
+    let n = [grid.cells[0], grid.cells[1]];
+    let node = |i: usize, j: usize| i * (n[1] + 1) + j;
+    let place = |axis: usize, k: usize| {
+        grid.from[axis] + (grid.to[axis] - grid.from[axis]) * k as f64 / n[axis] as f64
+    };
+    let nodes = (0..=n[0])
+        .flat_map(|i| (0..=n[1]).map(move |j| [i, j]))
+        .map(|[i, j]| Point::<2>::new(place(0, i), place(1, j)))
+        .collect();
+    let mut cells = Vec::new();
+    for i in 0..n[0] {
+        for j in 0..n[1] {
+            let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+            if 2 * j < n[1] {
+                cells.extend([vec![a, b, d], vec![b, c, d]]);
+            } else {
+                cells.extend([vec![a, b, c], vec![a, c, d]]);
+            }
+        }
+    }
+    (nodes, cells)
+}
+
+/// The six ways from a corner of a cube to the opposite one along its edges.
+const WAYS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+
+/// A box of cubes, each of six tetrahedra.
+fn cubes(grid: &GridSpec) -> Cells<3> {
+    let n = [grid.cells[0], grid.cells[1], grid.cells[2]];
+    let node = |at: [usize; 3]| (at[0] * (n[1] + 1) + at[1]) * (n[2] + 1) + at[2];
+    let place = |axis: usize, k: usize| {
+        grid.from[axis] + (grid.to[axis] - grid.from[axis]) * k as f64 / n[axis] as f64
+    };
+    let mut nodes = Vec::new();
+    for i in 0..=n[0] {
+        for j in 0..=n[1] {
+            nodes
+                .extend((0..=n[2]).map(|k| Point::<3>::new(place(0, i), place(1, j), place(2, k))));
+        }
+    }
+    let mut cells = Vec::new();
+    for i in 0..n[0] {
+        for j in 0..n[1] {
+            for k in 0..n[2] {
+                for way in WAYS {
+                    let mut at = [i, j, k];
+                    let mut cell = vec![node(at)];
+                    for axis in way {
+                        at[axis] += 1;
+                        cell.push(node(at));
+                    }
+                    cells.push(cell);
+                }
+            }
+        }
+    }
+    (nodes, cells)
+}
+
+/// A plate over triangles: prisms, each divided by the order of its vertices, so that neighbours agree.
+fn plate(base: &Triangles, outline: &OutlineSpec) -> Cells<3> {
+    let [from, to] = outline.z.unwrap_or_default();
+    let (n, layers) = (base.points.len(), outline.layers);
+    let mut nodes = Vec::new();
+    for layer in 0..=layers {
+        let z = from + (to - from) * layer as f64 / layers as f64;
+        nodes.extend(base.points.iter().map(|x| Point::<3>::new(x[0], x[1], z)));
+    }
+    let mut cells = Vec::new();
+    for layer in 0..layers {
+        for cell in &base.cells {
+            let mut below = cell.map(|vertex| vertex + layer * n);
+            below.sort_unstable();
+            let [a, b, c] = below;
+            let [above_a, above_b, above_c] = below.map(|vertex| vertex + n);
+            cells.push(vec![a, b, c, above_c]);
+            cells.push(vec![a, b, above_b, above_c]);
+            cells.push(vec![a, above_a, above_b, above_c]);
+        }
+    }
+    (nodes, cells)
+}

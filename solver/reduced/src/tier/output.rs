@@ -1,0 +1,41 @@
+//! What commands write of a soft case: a case that runs, with the files it names.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use alewife_case::soft::SoftFile;
+use alewife_case::soft::spec::SoftCase;
+
+/// Names of the files beside a case that is written.
+const BESIDE: [&str; 2] = ["record.csv", "mesh.msh"];
+
+/// Writes `case.toml` with the files that the case names beside it: a case that runs as it stands there.
+///
+/// # Errors
+/// What the file system reports, and a case that is no TOML.
+pub fn write_case(directory: &Path, file: &SoftFile, case: &SoftCase) -> io::Result<()> {
+    let mut case = case.clone();
+    let [record, mesh] = BESIDE;
+    if let (Some(spec), Some(beside)) = (&mut case.record, &file.record) {
+        record.clone_into(&mut spec.file);
+        fs::write(directory.join(record), &beside.bytes)?;
+    }
+    let given = case.solid.first_mut().and_then(|solid| solid.mesh.as_mut());
+    if let (Some(spec), Some(beside)) = (given, &file.mesh) {
+        mesh.clone_into(&mut spec.file);
+        fs::write(directory.join(mesh), &beside.bytes)?;
+    }
+    let text = toml::to_string_pretty(&case).map_err(io::Error::other)?;
+    fs::write(directory.join("case.toml"), text)
+}
+
+/// A number that tells a case with its files from others.
+#[must_use]
+pub fn fingerprint(file: &SoftFile) -> String {
+    let mut bytes = toml::to_string(&file.case).unwrap_or_default().into_bytes();
+    for beside in [&file.record, &file.mesh].into_iter().flatten() {
+        bytes.extend_from_slice(&beside.bytes);
+    }
+    format!("crc32:{:08x}-{}", crc32fast::hash(&bytes), bytes.len())
+}

@@ -1,0 +1,124 @@
+//! `gradient`: how quantities of a steady flow change with numbers of its case.
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::complete;
+use super::exit::{Exit, Failure};
+use super::read::{Settings, read_case};
+use super::style::{Ink, on_stdout, say};
+use crate::case::{Case, printable};
+use crate::gradient::{Derivatives, GradientError, GradientTask, gradients};
+
+/// What `gradient` is asked for.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Which case
+    #[arg(add = complete::case())]
+    case: String,
+    /// Quantities, by their columns in series.csv: loads, powers and velocities of bodies and swimmers, such as
+    /// ball.force.x
+    #[arg(long, required = true, value_delimiter = ',', value_name = "QUANTITY[,QUANTITY...]")]
+    of: Vec<String>,
+    /// Keys of numbers of the case, such as fluid.viscosity,body.0.shape.disc.radius
+    #[arg(long, required = true, value_delimiter = ',', value_name = "KEY[,KEY...]")]
+    by: Vec<String>,
+    #[command(flatten)]
+    settings: Settings,
+    /// Compare each derivative with a central difference of two complete solutions on the mesh that moves with the
+    /// number; exit code 20 where they differ by more than 1e-4
+    #[arg(long)]
+    check: bool,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Part of a derivative by which it may differ from a difference.
+const TOLERANCE: f64 = 1e-4;
+/// Part of the largest change by a number relative to which smaller ones are compared.
+const SMALL: f64 = 1e-3;
+
+/// A derivative of a quantity by a number of a case.
+struct Row<'a> {
+    key: &'a str,
+    derivative: f64,
+    /// The same by a central difference, if asked for.
+    difference: Option<f64>,
+    /// What both differ by, over the derivative.
+    error: Option<f64>,
+}
+
+/// Prints the derivatives of quantities of a case by some of its numbers.
+pub fn gradient(options: &Options) -> Result<Exit, Failure> {
+    let file = read_case(&options.case, &options.settings.set)?;
+    let read = |more: &[String]| {
+        let settings = [&options.settings.set[..], more].concat();
+        Case::read(&options.case, &settings)
+    };
+    let Options { of, by, check, .. } = options;
+    let task = GradientTask { read: &read, of, by, checks: *check };
+    let found = gradients(&task)?;
+    let numbers: Vec<f64> = by.iter().map(|key| file.number(key).unwrap_or(1.0)).collect();
+    let tables: Vec<Vec<Row<'_>>> =
+        found.iter().map(|quantity| rows(quantity, by, &numbers)).collect();
+    if options.json {
+        let quantities = found.iter().zip(&tables).map(|(of, rows)| to_json(of, rows));
+        let all: Vec<Value> = quantities.collect();
+        say(&format!("{:#}", json!({ "case": file.full_name(), "quantities": all })));
+    } else {
+        found.iter().zip(&tables).for_each(|(of, rows)| print(of, rows));
+    }
+    let errors = tables.iter().flatten().filter_map(|row| row.error);
+    let is_within = errors.fold(0.0, f64::max) <= TOLERANCE;
+    Ok(if is_within { Exit::Done } else { Exit::OutsideTolerance })
+}
+
+fn rows<'a>(of: &Derivatives, keys: &'a [String], numbers: &[f64]) -> Vec<Row<'a>> {
+    // Derivatives by numbers of other units are compared by what a change of one percent, say, would do
+    let size = |number: f64| if number == 0.0 { 1.0 } else { number.abs() };
+    let effects = of.by.iter().zip(numbers).map(|(by, number)| (by * size(*number)).abs());
+    let largest = effects.fold(0.0, f64::max);
+    let row = |(index, key): (usize, &'a String)| {
+        let (derivative, difference) = (of.by[index], of.differences.get(index).copied());
+        let least = SMALL * largest / size(numbers[index]);
+        let scale = derivative.abs().max(least).max(f64::MIN_POSITIVE);
+        let error = difference.map(|difference| (derivative - difference).abs() / scale);
+        Row { key, derivative, difference, error }
+    };
+    keys.iter().enumerate().map(row).collect()
+}
+
+fn print(of: &Derivatives, rows: &[Row<'_>]) {
+    say(&on_stdout(Ink::Bold, &format!("{} = {:.10e}", printable(&of.of), of.value)));
+    let width = rows.iter().map(|row| row.key.chars().count()).max().unwrap_or(0);
+    for Row { key, derivative, difference, error } in rows {
+        let mut line = format!("  by {:<width$}  {derivative:>18.10e}", printable(key));
+        if let (Some(difference), Some(error)) = (difference, error) {
+            line += &format!("  difference {difference:>18.10e}, off by {error:.1e}");
+        }
+        say(&line);
+    }
+}
+
+fn to_json(of: &Derivatives, rows: &[Row<'_>]) -> Value {
+    let by = rows.iter().map(|row| {
+        let mut entry = json!({ "key": row.key, "derivative": row.derivative });
+        if let (Some(difference), Some(error)) = (row.difference, row.error) {
+            entry["difference"] = json!(difference);
+            entry["error"] = json!(error);
+        }
+        entry
+    });
+    json!({ "quantity": of.of, "value": of.value, "by": by.collect::<Vec<_>>() })
+}
+
+impl From<GradientError> for Failure {
+    fn from(error: GradientError) -> Self {
+        match error {
+            GradientError::Case(error) => error.into(),
+            GradientError::Run(error) => error.into(),
+            GradientError::Adjoint(_) => Self::new(Exit::Diverged, error.to_string()),
+        }
+    }
+}

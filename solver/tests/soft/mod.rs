@@ -1,0 +1,135 @@
+//! Soft cases from the command line: what is run, found and refused, and what is written.
+#![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A bar in the plane with fibres along one side.
+const BAR: &str = r#"
+title = "a bar"
+geometry = "planar"
+[[solid]]
+name = "bar"
+order = "linear"
+grid = { from = [0.0, -0.06], to = [0.012, 0.06], cells = [2, 12] }
+material = { law = "neo-hookean", young = 4e4, poisson = 0.3, density = 1000.0 }
+[[solid.fibre]]
+name = "below"
+region = { from = [-inf, -0.06], to = [0.006, 0.06] }
+direction = [0.0, 1.0]
+stiffness = 1e5
+stretch.wave = { mean = 0.95, amplitude = 0.04, frequency = 3.0 }
+[[solid.hold]]
+region = { from = [-inf, -0.011], to = [inf, 0.011] }
+axes = ["y"]
+[soft]
+frame = 0.04
+frames = 8
+[loads]
+density = 1000.0
+drag.bezier = [0.05, 0.05, 1.85, 2.05]
+thrust.bezier = [-0.8, -0.5, 0.1, 2.5]
+[[marker]]
+name = "tip"
+at = [0.0, 0.06]
+[optimisation.objective.travel]
+direction = [1.0, 0.0]
+[[optimisation.parameter]]
+name = "amplitude"
+keys = ["solid.0.fibre.0.stretch.wave.amplitude"]
+bounds = [0.001, 0.045]
+scale = 0.01
+[optimisation.search]
+evaluations = 5
+[[reference]]
+quantity = "time"
+value = 0.32
+relative = 1e-9
+kind = "exact"
+source = "eight frames"
+"#;
+
+fn alewife(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(arguments)
+        .current_dir(directory)
+        .output()
+        .unwrap()
+}
+
+#[track_caller]
+fn done(directory: &Path, arguments: &[&str]) -> String {
+    let output = alewife(directory, arguments);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{stderr}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refused(directory: &Path, arguments: &[&str], code: i32) -> String {
+    let output = alewife(directory, arguments);
+    assert_eq!(output.status.code(), Some(code));
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn a_soft_case_is_checked_and_run_and_what_is_written_runs_with_the_same_bits() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    fs::write(at.join("bar.toml"), BAR).unwrap();
+    assert!(done(at, &["check", "bar.toml"]).contains("48 cells"));
+    let said = done(at, &["run", "bar.toml", "--fidelity", "soft", "--out", "r"]);
+    assert!(said.contains("within   time"), "{said}");
+    done(at, &["run", "r/case.toml", "--fidelity", "soft", "--out", "s"]);
+    for file in ["series.csv", "fields/frame-0008.vtu", "fields.pvd", "case.toml"] {
+        assert_eq!(
+            fs::read(at.join("r").join(file)).unwrap(),
+            fs::read(at.join("s").join(file)).unwrap()
+        );
+    }
+    let again = refused(at, &["run", "bar.toml", "--fidelity", "soft", "--out", "r"], 2);
+    assert!(again.contains("--overwrite"), "{again}");
+    let own = refused(at, &["run", "bar.toml", "--fidelity", "soft", "--out", "r/fields/.."], 2);
+    assert!(own.contains("--overwrite"), "{own}");
+}
+
+#[test]
+fn an_optimum_is_found_and_runs_and_a_search_called_again_is_the_same() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    fs::write(at.join("bar.toml"), BAR).unwrap();
+    let said = done(at, &["optimise", "bar.toml", "--out", "o", "--quiet"]);
+    assert!(said.contains("optimisation after"), "{said}");
+    done(at, &["run", "o/case.toml", "--fidelity", "soft", "--out", "r"]);
+    let report = fs::read(at.join("o/report.json")).unwrap();
+    let journal = fs::read_to_string(at.join("o/search.journal")).unwrap();
+    let kept: Vec<&str> = journal.lines().take(3).collect();
+    fs::create_dir(at.join("p")).unwrap();
+    fs::write(at.join("p/search.journal"), kept.join("\n") + "\n1.0 2.").unwrap();
+    done(at, &["optimise", "bar.toml", "--out", "p", "--quiet"]);
+    assert_eq!(fs::read(at.join("p/report.json")).unwrap(), report);
+    assert_eq!(fs::read_to_string(at.join("p/search.journal")).unwrap(), journal);
+    let other = ["optimise", "bar.toml", "--set", "soft.frames=7", "--out", "q", "--quiet"];
+    fs::create_dir(at.join("q")).unwrap();
+    fs::write(at.join("q/search.journal"), &journal).unwrap();
+    assert!(refused(at, &other, 2).contains("journal of another search"));
+}
+
+#[test]
+fn soft_cases_and_flows_are_not_taken_for_each_other() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    fs::write(at.join("bar.toml"), BAR).unwrap();
+    assert!(refused(at, &["run", "bar.toml"], 2).contains("--fidelity soft"));
+    assert!(refused(at, &["run", "dfg-2d-1", "--fidelity", "soft"], 65).contains("[soft]"));
+    assert!(
+        refused(at, &["run", "bar.toml", "--fidelity", "soft", "--live"], 2).contains("--live")
+    );
+    assert!(refused(at, &["calibrate", "bar.toml"], 65).contains("[calibration]"));
+    let set = "solid.0.material.poisson=0.7";
+    let wrong = refused(at, &["check", "bar.toml", "--set", set], 65);
+    assert!(wrong.contains("below 0.5") && wrong.contains("--set"), "{wrong}");
+    fs::write(at.join("bad.toml"), BAR.replace("1.85, 2.05]", "1.85]")).unwrap();
+    let wrong = refused(at, &["run", "bad.toml", "--fidelity", "soft"], 65);
+    assert!(wrong.contains("bad.toml:23") && wrong.contains("has four"), "{wrong}");
+}
