@@ -8,7 +8,7 @@ from pathlib import Path
 import meshes
 import numpy as np
 import pytest
-from conftest import CAN_RENDER
+from conftest import CAN_RENDER, ring
 
 from alewife_post import Run, derived, exports, traction
 from alewife_post.cli import main
@@ -184,3 +184,16 @@ def test_pictures_show_derived_quantities(tmp_path: Path) -> None:
         out = tmp_path / f"{quantity}.png"
         given = ["picture", str(run.path), "--quantity", quantity, "--out", str(out)]
         assert main(given) == 0
+
+
+def test_a_body_periods_away_from_its_mesh_has_its_surface(tmp_path: Path) -> None:
+    nodes, cells = ring()
+    body = SPHERE.format(model="stokes", viscosity=VISCOSITY).replace("[0.0]", "[20.0, 0.0]")
+    top = meshes.TOP.format(
+        geometry="planar", domain="channel = { length = 10.0, height = 4.0 }", time="steady",
+        body="[boundary]\nleft = { periodic = {} }\n" + body,
+    )  # fmt: skip
+    run = meshes.written(tmp_path / "run", [(0.0, nodes, cells, 0 * nodes, nodes[:, 0])], top)
+    ball, sides = traction.facets_of(run, run.field())
+    assert (ball.name, sides.name) == ("ball", traction.SIDES)
+    assert np.linalg.norm(nodes[ball.nodes], axis=2) == pytest.approx(1.0, abs=1e-6)

@@ -176,7 +176,8 @@ def _in_space(run: Run, time: float) -> Scenery:
 
 def _with_sides(run: Run, flow: Field, seen: camera.Seen) -> camera.Seen:
     """What is in view, as far as sides that are near: a tube around its sphere, a wall below it."""
-    if seen.is_whole:
+    # A ball around all is seen from inside: it is in view only where the whole domain is
+    if seen.is_whole or "sphere" in run.case["domain"]:
         return seen
     low, high = domain_box(run.case)
     if not np.isfinite(low).all():

@@ -133,8 +133,12 @@ def _owner(
     """The nearest body that reaches all of some points `(n, d)`."""
     best, least = None, np.inf
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    lengths = periods(run.case)[: points.shape[1]]
     for name, (center, _) in placed.items():
         own = center[: points.shape[1]]
+        # Of a periodic domain the mesh may have a body whole periods from where it is
+        turns = np.divide(middle - own, lengths, out=np.zeros(len(own)), where=lengths > 0)
+        own = own + np.round(turns) * lengths
         reach = bodies.radius(run, name)
         farthest = np.linalg.norm(points - own, axis=1).max()
         is_near = farthest <= NEAR * reach if reach > 0.0 else not is_outer
