@@ -3,5 +3,6 @@
 mod cases;
 mod gradients;
 mod searches;
+mod shipped;
 mod swimmers;
 mod twin;
