@@ -3,6 +3,7 @@
 mod cases;
 mod gradients;
 mod searches;
+mod shipped;
 mod swimmers;
 mod tree;
 mod twin;

@@ -89,8 +89,13 @@ fn a_soft_case_is_checked_and_run_and_what_is_written_runs_with_the_same_bits() 
     }
     let again = refused(at, &["run", "bar.toml", "--fidelity", "soft", "--out", "r"], 2);
     assert!(again.contains("--overwrite"), "{again}");
-    let own = refused(at, &["run", "bar.toml", "--fidelity", "soft", "--out", "r/fields/.."], 2);
-    assert!(own.contains("--overwrite"), "{own}");
+    done(at, &["run", "bar.toml", "--fidelity", "soft", "--out", "r", "--overwrite"]);
+    // A case of somebody is not replaced
+    fs::create_dir(at.join("mine")).unwrap();
+    fs::write(at.join("mine/case.toml"), BAR).unwrap();
+    let mine = ["run", "mine", "--fidelity", "soft", "--out", "mine", "--overwrite"];
+    assert!(refused(at, &mine, 2).contains("not of such a command"));
+    assert_eq!(fs::read_to_string(at.join("mine/case.toml")).unwrap(), BAR);
 }
 
 #[test]

@@ -25,7 +25,11 @@ pub fn prepare(
         );
         return Err(Failure::new(Exit::Usage, message));
     }
-    if directory.join("case.toml").exists() && !directory.join(last).exists() {
+    // What was stopped on its way has left a journal or fields
+    let is_ours = directory.join(last).exists()
+        || directory.join("fields.pvd").exists()
+        || has_ending(directory, journals);
+    if directory.join("case.toml").exists() && !is_ours {
         let message = format!(
             "{} has a case.toml that is not of such a command: write elsewhere by --out",
             directory.display()
@@ -43,4 +47,10 @@ pub fn prepare(
         }
     }
     Ok(())
+}
+
+/// Whether a directory has a file of this ending.
+fn has_ending(directory: &Path, ending: &str) -> bool {
+    let entries = fs::read_dir(directory).into_iter().flatten().flatten();
+    entries.map(|entry| entry.path()).any(|path| path.extension().is_some_and(|own| own == ending))
 }
