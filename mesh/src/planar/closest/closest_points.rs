@@ -1,6 +1,6 @@
 //! `Closest`: two points of two curves that face each other.
 
-use crate::Point;
+use crate::{Outline, Point};
 
 /// Two points of two curves that face each other, where their distance is smallest nearby.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,4 +40,35 @@ impl Closest {
             curvatures: [self.curvatures[1], self.curvatures[0]],
         }
     }
+}
+
+/// The one with the least gap.
+pub fn least(features: &[Closest]) -> Option<Closest> {
+    features.iter().copied().reduce(|best, at| if at.gap < best.gap { at } else { best })
+}
+
+/// The deepest, or nearest, of many points of one outline to the other.
+pub fn by_points(first: &Outline, second: &Outline) -> Closest {
+    const POINTS: usize = 256;
+    let from = |one: &Outline, other: &Outline| {
+        let mut best: Option<Closest> = None;
+        for i in 0..POINTS {
+            let parameter = one.period() * i as f64 / POINTS as f64;
+            let at = one.at(parameter)[0];
+            let foot = other.nearest(at);
+            if best.is_none_or(|best| foot.gap < best.gap) {
+                best = Some(Closest {
+                    first: at,
+                    second: foot.point,
+                    normal: foot.normal,
+                    gap: foot.gap,
+                    parameters: [parameter, 0.0],
+                    curvatures: [0.0, foot.curvature],
+                });
+            }
+        }
+        best
+    };
+    let pairs = [from(first, second), from(second, first).map(|at| at.swapped())];
+    least(&pairs.into_iter().flatten().collect::<Vec<_>>()).expect("there are points")
 }

@@ -7,9 +7,8 @@
 use std::f64::consts::PI;
 
 use super::arc::{apart, wrapped};
-use super::closest_points::Closest;
+use super::closest_points::{Closest, by_points, least};
 use super::wall::Wall;
-use super::{by_points, least};
 use crate::planar::outline::Corner;
 use crate::planar::vector::cross;
 use crate::{Outline, Point};

@@ -10,6 +10,7 @@ mod pairs;
 mod wall;
 
 pub use closest_points::Closest;
+use closest_points::{by_points, least};
 pub use wall::Wall;
 
 use std::borrow::Cow;
@@ -169,10 +170,6 @@ fn shallow(first: &Outline, second: &Outline) -> f64 {
     0.02 * first.reach().min(second.reach())
 }
 
-fn least(features: &[Closest]) -> Option<Closest> {
-    features.iter().copied().reduce(|best, at| if at.gap < best.gap { at } else { best })
-}
-
 /// Closed form for two discs.
 fn between_discs(first: &Outline, second: &Outline) -> Option<Closest> {
     let (r, s) = (first.circle_radius()?, second.circle_radius()?);
@@ -204,30 +201,4 @@ fn overlap_depth(first: &Outline, second: &Outline) -> Option<Closest> {
     let mut found = pairs::features(first, second, depth);
     found.retain(|at| at.gap <= 0.0);
     Some(least(&found).unwrap_or_else(|| by_points(first, second)))
-}
-
-/// The deepest, or nearest, of many points of one outline to the other.
-fn by_points(first: &Outline, second: &Outline) -> Closest {
-    const POINTS: usize = 256;
-    let from = |one: &Outline, other: &Outline| {
-        let mut best: Option<Closest> = None;
-        for i in 0..POINTS {
-            let parameter = one.period() * i as f64 / POINTS as f64;
-            let at = one.at(parameter)[0];
-            let foot = other.nearest(at);
-            if best.is_none_or(|best| foot.gap < best.gap) {
-                best = Some(Closest {
-                    first: at,
-                    second: foot.point,
-                    normal: foot.normal,
-                    gap: foot.gap,
-                    parameters: [parameter, 0.0],
-                    curvatures: [0.0, foot.curvature],
-                });
-            }
-        }
-        best
-    };
-    let pairs = [from(first, second), from(second, first).map(|at| at.swapped())];
-    least(&pairs.into_iter().flatten().collect::<Vec<_>>()).expect("there are points")
 }

@@ -3,6 +3,7 @@
 mod check;
 mod edges;
 mod fault;
+mod lines;
 mod measure;
 mod obj;
 mod ply;

@@ -1,6 +1,6 @@
 //! OBJ: lines `v x y z` and `f 1 2 3`; all else is passed over.
 
-use super::read::{at_line, fan};
+use super::lines::{at_line, fan};
 use super::{SurfaceFault, TriangleMesh, at_most};
 use crate::Point;
 use crate::number::index_u32;

@@ -1,6 +1,6 @@
 //! PLY: a header that says what is there, then vertices and polygons, as text or binary.
 
-use super::read::{at_line, fan};
+use super::lines::{at_line, fan};
 use super::{SurfaceFault, TriangleMesh, at_most};
 use crate::Point;
 

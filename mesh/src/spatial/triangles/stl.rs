@@ -1,6 +1,6 @@
 //! STL: triangles by the places of their corners, as text or binary.
 
-use super::read::at_line;
+use super::lines::at_line;
 use super::{SurfaceFault, TriangleMesh, at_most};
 use crate::Point;
 use crate::number::index_u32;

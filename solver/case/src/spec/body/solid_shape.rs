@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use alewife_mesh::spatial::SpaceSpline;
 
+use super::given::surface::SurfaceShape;
 use super::{CurveShape, HelixShape, PartSpec, ShapeSpec};
 
 /// Lengths of a solid, its surface and its volume, estimates where parts overlap.
@@ -41,6 +42,20 @@ impl CurveShape {
     pub(crate) fn measures(&self) -> Option<Measures> {
         let spline = self.spline()?;
         Some(tube(spline.length(), spline.reach(), self.tube_radius))
+    }
+}
+
+impl SurfaceShape {
+    pub(crate) fn measures(&self) -> Option<Measures> {
+        let solid = self.solid()?;
+        let extent = solid.triangles().extent();
+        Some(Measures {
+            length: 0.5 * PI * extent,
+            area: solid.area(),
+            volume: solid.moments().volume,
+            reach: solid.reach(),
+            half_width: solid.inner_radius(),
+        })
     }
 }
 

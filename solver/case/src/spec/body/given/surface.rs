@@ -7,7 +7,6 @@ use alewife_mesh::spatial::{SurfaceFault, TriangleMesh, Triangulated};
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::spec::body::solid_shape::Measures;
 #[cfg(test)]
 use crate::spec::number::{Degrees, Positive};
 
@@ -150,17 +149,5 @@ impl SurfaceShape {
     #[must_use]
     pub fn n_triangles(&self) -> usize {
         self.solid().map_or(0, |solid| solid.triangles().triangles.len())
-    }
-
-    pub(crate) fn measures(&self) -> Option<Measures> {
-        let solid = self.solid()?;
-        let extent = solid.triangles().extent();
-        Some(Measures {
-            length: 0.5 * std::f64::consts::PI * extent,
-            area: solid.area(),
-            volume: solid.moments().volume,
-            reach: solid.reach(),
-            half_width: solid.inner_radius(),
-        })
     }
 }
