@@ -38,6 +38,8 @@ pub struct Options {
 const TOLERANCE: f64 = 1e-4;
 /// Part of the largest change by a number relative to which smaller ones are compared.
 const SMALL: f64 = 1e-3;
+/// Part of the loads or velocities a quantity is made of, relative to which changes are that are zero but for rounding.
+const ZERO: f64 = 1e-5;
 
 /// A derivative of a quantity by a number of a case.
 struct Row<'a> {
@@ -75,13 +77,13 @@ pub fn gradient(options: &Options) -> Result<Exit, Failure> {
 }
 
 fn rows<'a>(of: &Derivatives, keys: &'a [String], numbers: &[f64]) -> Vec<Row<'a>> {
-    // Derivatives by numbers of other units are compared by what a change of one percent, say, would do
+    // Derivatives by numbers of other units are compared by what a change by all of the number would do
     let size = |number: f64| if number == 0.0 { 1.0 } else { number.abs() };
     let effects = of.by.iter().zip(numbers).map(|(by, number)| (by * size(*number)).abs());
     let largest = effects.fold(0.0, f64::max);
     let row = |(index, key): (usize, &'a String)| {
         let (derivative, difference) = (of.by[index], of.differences.get(index).copied());
-        let least = SMALL * largest / size(numbers[index]);
+        let least = (SMALL * largest).max(ZERO * of.size) / size(numbers[index]);
         let scale = derivative.abs().max(least).max(f64::MIN_POSITIVE);
         let error = difference.map(|difference| (derivative - difference).abs() / scale);
         Row { key, derivative, difference, error }

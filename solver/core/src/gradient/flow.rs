@@ -29,6 +29,7 @@ pub(super) struct BaseFlow<const D: usize> {
     residual: Vec<f64>,
     free: Vec<f64>,
     values: Vec<f64>,
+    sizes: Vec<f64>,
 }
 
 /// Largest residual of a flow relative to that at rest.
@@ -44,7 +45,7 @@ where
         let simulation = simulation_with::<D>(model, |_| Ok(()))?;
         let (problem, mut work, shifts) =
             (simulation.problem, simulation.work, simulation.state.image_shifts.clone());
-        refuse(file, &problem, work.system.is_iterative())?;
+        refuse(file, &problem)?;
         let mesh = MeshOfBodies::new(model, &problem, &work.mesh, &shifts)?;
         let point = CasePoint::new(file.clone(), problem, work.mesh.clone(), &shifts)?;
         let SteadyFlow { solution, residual, .. } = steady_flow(&mut work, &point)?;
@@ -52,7 +53,8 @@ where
         let free = work.system.free_unknowns(&point.problem, &constraints, &solution);
         let loads = surface_loads(&work.system, &point, &solution, &residual);
         let values = values(&columns, &point, &solution, &loads.bodies);
-        Ok(Self { mesh, point, work, columns, solution, residual, free, values })
+        let sizes = Vec::new();
+        Ok(Self { mesh, point, work, columns, solution, residual, free, values, sizes })
     }
 }
 
@@ -109,6 +111,11 @@ impl<const D: usize> BaseFlow<D> {
         &self.values
     }
 
+    /// How large the loads, powers or velocities are that each quantity is made of, once there are adjoints.
+    pub fn sizes(&self) -> &[f64] {
+        &self.sizes
+    }
+
     /// The columns of the quantities.
     pub fn columns(&self) -> &[Column] {
         &self.columns
@@ -116,8 +123,11 @@ impl<const D: usize> BaseFlow<D> {
 
     /// The adjoint of each quantity, by free unknowns.
     pub fn adjoints(&mut self) -> Result<Vec<Vec<f64>>, GradientError> {
+        let weights: Vec<Weights> =
+            self.columns.iter().map(|column| self.weights(column)).collect();
+        self.sizes = weights.iter().map(|weights| weights.size).collect();
         let derivatives: Vec<Vec<f64>> =
-            self.columns.iter().map(|column| self.derivative(column)).collect();
+            weights.iter().map(|weights| self.derivative(weights)).collect();
         let Self { point, work, solution, .. } = self;
         let Workspace { system, timing, .. } = work;
         let constraints = system.constraints(&point.problem, &point.mesh, point.bodies());
@@ -127,18 +137,23 @@ impl<const D: usize> BaseFlow<D> {
         Ok(system.adjoints(&at, &terms, solution, &derivatives, timing)?)
     }
 
-    /// The derivative of a quantity by the raw unknowns.
-    fn derivative(&self, column: &Column) -> Vec<f64> {
+    /// What loads and velocities count in a quantity.
+    fn weights(&self, column: &Column) -> Weights {
         let Self { point, work, solution, residual, .. } = self;
-        let system = &work.system;
-        let loads = surface_loads(system, point, solution, residual);
+        let loads = surface_loads(&work.system, point, solution, residual);
         let bodies = BodiesInFlow {
             problem: &point.problem,
             poses: &point.poses,
             twists: &solution.twists,
             loads: &loads.bodies,
         };
-        let weights = Weights::of(&point.model.case, column, &bodies);
+        Weights::of(&point.model.case, column, &bodies)
+    }
+
+    /// The derivative by the raw unknowns of a quantity with these weights.
+    fn derivative(&self, weights: &Weights) -> Vec<f64> {
+        let Self { point, work, solution, residual, .. } = self;
+        let system = &work.system;
         let flow = ResidualOnMesh {
             mesh: &point.mesh,
             layout: &system.layout,

@@ -60,6 +60,8 @@ pub(super) struct Weights {
     pub loads: Vec<LoadWeights>,
     /// Of the rigid velocities.
     pub twists: Vec<RigidVector>,
+    /// The size of what they weigh, all of one sign.
+    pub size: f64,
 }
 
 /// Part of a load or a velocity by which it is changed: quantities are of second order in them, or nearly.
@@ -77,6 +79,7 @@ impl Weights {
         let mut weights = Self {
             loads: vec![LoadWeights::default(); n_bodies],
             twists: vec![RigidVector::zeros(); n_bodies],
+            size: 0.0,
         };
         for body in 0..n_bodies {
             for index in 0..6 {
@@ -103,6 +106,10 @@ impl Weights {
                 value(&loads, bodies.twists)
             };
             weights.loads[body].power = slope(by_power, sizes.power);
+            let LoadWeights { load, power } = &weights.loads[body];
+            weights.size += load.abs().sum() * sizes.load
+                + power.abs() * sizes.power
+                + weights.twists[body].abs().sum() * sizes.velocity;
         }
         weights
     }

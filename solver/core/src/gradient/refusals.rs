@@ -8,11 +8,9 @@ use crate::coupling::Problem;
 pub(super) fn refuse<const D: usize>(
     file: &CaseFile,
     problem: &Problem<D>,
-    is_iterative: bool,
 ) -> Result<(), GradientError> {
     let waves =
         |condition: &BoundaryCondition| matches!(condition, BoundaryCondition::WavingSheet { .. });
-    let is_symmetric = !problem.has_convection && problem.do_nothing_sides().is_empty();
     let refused = [
         (
             problem.bodies.iter().any(|body| body.shape.is_some()),
@@ -37,13 +35,6 @@ pub(super) fn refuse<const D: usize>(
             "boundary",
             "gradients know no sheets that wave yet",
             "give the side a velocity",
-        ),
-        (
-            is_iterative && !is_symmetric,
-            "geometry",
-            "in space with many unknowns gradients are those of Stokes flows without do-nothing sides: others need the \
-             solution of a transposed system by iterations",
-            "write fluid.model = \"stokes\" and traction-free sides, or take a mesh of less than 7000 unknowns",
         ),
     ];
     match refused.iter().find(|(is_so, ..)| *is_so) {

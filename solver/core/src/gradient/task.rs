@@ -32,6 +32,8 @@ pub struct Derivatives {
     pub of: String,
     /// Its value.
     pub value: f64,
+    /// How large the loads, powers or velocities are that it is made of: what would be zero is small beside it.
+    pub size: f64,
     /// By each number, in the order in which they were asked for.
     pub by: Vec<f64>,
     /// The same by central differences of complete solutions on the mesh that moves with the number; empty unless asked
@@ -91,10 +93,11 @@ where
     let parameters = parameters(file, task.by)?;
     let mut flow = BaseFlow::<D>::solve(file, columns)?;
     let adjoints = flow.adjoints()?;
-    let values = flow.values().iter().zip(task.of);
-    let empty = |(value, name): (&f64, &String)| Derivatives {
+    let values = flow.values().iter().zip(flow.sizes()).zip(task.of);
+    let empty = |((value, size), name): ((&f64, &f64), &String)| Derivatives {
         of: name.clone(),
         value: *value,
+        size: *size,
         by: Vec::new(),
         differences: Vec::new(),
     };

@@ -39,6 +39,16 @@ pub enum LinearError {
         /// Entries that the factors of the matrix would have.
         n_factor_entries: usize,
     },
+    /// Factors would be too large where iterations do not help.
+    #[error(
+        "the factors of {n_unknowns} unknowns would have {n_factor_entries} entries, too many; take a coarser mesh"
+    )]
+    TooLarge {
+        /// Number of unknowns.
+        n_unknowns: usize,
+        /// Entries that the factors of the matrix would have.
+        n_factor_entries: usize,
+    },
     /// A value of the matrix, the right-hand side or the solution is infinite or not a number.
     #[error("the matrix, the right-hand side or the solution is not finite")]
     NotFinite,

@@ -39,6 +39,19 @@ fn analysed<'a>(
     })
 }
 
+/// Solves with the transpose of a matrix, in place, for some right-hand sides.
+pub(super) fn solved_transposed(
+    solver: &mut DirectSolver,
+    matrix: &SparseMatrix,
+    sides: &mut [Vec<f64>],
+    timing: &mut Timing,
+) -> Result<(), LinearError> {
+    let solve = |solver: &mut DirectSolver| {
+        sides.iter_mut().try_for_each(|side| solver.solve_transposed(matrix, side).map(drop))
+    };
+    set_up_and(solve, solver, matrix, timing)
+}
+
 impl SystemSolver for DirectSystem {
     fn assemble(&mut self, cells: &mut dyn FnMut(&mut Scatter<'_>)) {
         let Self { maps, matrix, .. } = self;
@@ -78,13 +91,13 @@ impl SystemSolver for DirectSystem {
 
     fn solve_transposed(
         &mut self,
-        rhs: &mut [f64],
+        sides: &mut [Vec<f64>],
+        _is_symmetric: bool,
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
         let Self { matrix, unknowns, solver, .. } = self;
         let solver = analysed(solver, matrix, unknowns, timing);
-        let solve = |solver: &mut DirectSolver| solver.solve_transposed(matrix, rhs);
-        set_up_and(solve, solver, matrix, timing).map(drop)
+        solved_transposed(solver, matrix, sides, timing)
     }
 
     fn inverse_of(

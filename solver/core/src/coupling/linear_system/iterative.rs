@@ -1,10 +1,11 @@
 //! `IterativeSystem`: a saddle-point matrix by blocks, solved by iterations.
 
+use super::direct::solved_transposed;
 use super::preconditioning::Coefficients;
 use super::system_solver::{Scatter, SystemSolver, corrected, set_up_and, solved};
 use crate::algebra::{
-    Accuracy, CellUnknowns, IterativeSettings, IterativeSolver, LinearError, LinearSolver,
-    SaddleMatrix, SaddlePoint, SolverMemory, SparseMatrix, Unknowns, Weights,
+    Accuracy, CellUnknowns, DirectSolver, IterativeSettings, IterativeSolver, LinearError,
+    LinearSolver, SaddleMatrix, SaddlePoint, SolverMemory, SparseMatrix, Unknowns, Weights,
 };
 use crate::timing::{Stage, Timing};
 
@@ -113,10 +114,21 @@ impl SystemSolver for IterativeSystem {
 
     fn solve_transposed(
         &mut self,
-        rhs: &mut [f64],
+        sides: &mut [Vec<f64>],
+        is_symmetric: bool,
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
-        self.solve(rhs, Some(ADJOINT), timing)
+        if is_symmetric {
+            return sides.iter_mut().try_for_each(|side| self.solve(side, Some(ADJOINT), timing));
+        }
+        let matrix = self.matrix.to_sparse();
+        let analyse = || DirectSolver::new(matrix.pattern(), &self.unknowns);
+        let mut solver = timing.measure(Stage::Factorisation, analyse);
+        let n_factor_entries = solver.n_factor_entries();
+        if n_factor_entries > self.settings.max_factor_entries {
+            return Err(LinearError::TooLarge { n_unknowns: matrix.n(), n_factor_entries });
+        }
+        solved_transposed(&mut solver, &matrix, sides, timing)
     }
 
     fn inverse_of(

@@ -70,13 +70,17 @@ pub(in super::super) trait SystemSolver: Send + Sync {
         timing: &mut Timing,
     ) -> Result<(), LinearError>;
 
-    /// Solves with the transpose of the matrix, in place: by its factors, or where the solver iterates as if it were
-    /// symmetric.
+    /// Solves with the transpose of the matrix, in place, for some right-hand sides: by factors, or where the solver
+    /// iterates and the matrix is symmetric by iterations.
     ///
     /// # Errors
-    /// When the matrix is singular or the solution not finite.
-    fn solve_transposed(&mut self, rhs: &mut [f64], timing: &mut Timing)
-    -> Result<(), LinearError>;
+    /// When the matrix is singular, its factors are too large, or the solution is not finite.
+    fn solve_transposed(
+        &mut self,
+        sides: &mut [Vec<f64>],
+        is_symmetric: bool,
+        timing: &mut Timing,
+    ) -> Result<(), LinearError>;
 
     /// The block of the inverse in the rows and columns of some rigid velocities, column by column.
     ///

@@ -8,15 +8,15 @@ use super::super::problem::Problem;
 use super::super::solution::Solution;
 use super::{Configuration, FluidSystem};
 use crate::algebra::AffineConstraints;
-use crate::flow::{FlowTerms, transposed_product};
+use crate::flow::{Convection, FlowTerms, transposed_product};
 use crate::timing::Timing;
 
 impl<const D: usize> FluidSystem<D> {
     /// The adjoints, by free unknowns, of quantities with these derivatives by the raw unknowns at a solution. Solved for by
-    /// the factors of its matrix; where systems are solved by iterations that matrix has to be symmetric.
+    /// factors of its matrix, or where systems are solved by iterations and it is symmetric by iterations.
     ///
     /// # Errors
-    /// When the matrix is singular.
+    /// When the matrix is singular, or its factors are too large.
     pub fn adjoints(
         &mut self,
         at: &Configuration<'_, D>,
@@ -28,17 +28,19 @@ impl<const D: usize> FluidSystem<D> {
         self.linearise(at, terms, solution, timing)?;
         // That is a limit for flows
         self.linear.limit_mass(f64::INFINITY);
-        let mut adjoint = |derivative: &Vec<f64>| -> Result<Vec<f64>, SolveError> {
+        let right_hand_side = |derivative: &Vec<f64>| {
             let mut raw = derivative.clone();
             if at.problem.is_enclosed() {
                 self.pressure.before_centering(&mut raw[self.layout.pressures()]);
             }
-            let mut rhs = at.constraints.restrict(&raw);
-            let solved = self.linear.solve_transposed(&mut rhs, timing);
-            solved.map_err(|error| self.explain(at, error))?;
-            Ok(rhs)
+            at.constraints.restrict(&raw)
         };
-        derivatives.iter().map(&mut adjoint).collect()
+        let mut adjoints: Vec<Vec<f64>> = derivatives.iter().map(right_hand_side).collect();
+        let is_symmetric =
+            terms.convection == Convection::None && at.problem.do_nothing_sides().is_empty();
+        let solved = self.linear.solve_transposed(&mut adjoints, is_symmetric, timing);
+        solved.map_err(|error| self.explain(at, error))?;
+        Ok(adjoints)
     }
 
     /// The derivative by the raw unknowns of the product of the fluid's raw residual with weights.
