@@ -97,3 +97,39 @@ magnetic_moment = [1.0, 0.0]
     assert_eq!(field.components[0].at(0.5)[0], 2.0);
     assert!(case.problem_keys().unwrap().contains_key("field.magnetic.components.0.cubic"));
 }
+
+/// A value of a column `q` is sign * scale * q + offset, in the unit of the column.
+#[test]
+fn angles_of_a_file_have_unit_sign_scale_and_offset() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("robot.toml");
+    fs::write(directory.path().join("log.csv"), "t,q\n0,0\n0.5,20\n1,10\n").unwrap();
+    let with = |more: &str| {
+        let text = CASE.replace("../log.csv", "log.csv");
+        fs::write(&path, text.replace("column = \"q\"", &format!("column = \"q\", {more}")))
+            .unwrap();
+        Case::read(path.to_str().unwrap(), &[])
+    };
+    let angle = |more: &str, time: f64| {
+        let model = with(more).unwrap().model;
+        let JointKind::Bent { angle, .. } = &model.joints[0].kind else { panic!("{more}") };
+        angle.at(time)[0]
+    };
+    for (more, time, exact) in [
+        ("scale = 0.01", 0.5, 0.2),
+        ("unit = \"deg\"", 1.0, 10_f64.to_radians()),
+        ("unit = \"deg\", sign = -1, scale = 0.5, offset = 3", 0.5, -7_f64.to_radians()),
+        ("unit = \"turn\", scale = 0.01", 1.0, 0.1 * std::f64::consts::TAU),
+    ] {
+        let error = angle(more, time) - exact;
+        assert!(error.abs() < 1e-15, "{more}: {error:e}");
+    }
+    for (more, said) in [
+        ("sign = 2", ["`sign` is 2", "scale"]),
+        ("unit = \"grad\"", ["grad", "deg"]),
+        ("factor = 2", ["factor", "scale"]),
+    ] {
+        let message = with(more).unwrap_err().to_string();
+        assert!(said.iter().all(|part| message.contains(part)), "{more}: {message}");
+    }
+}
