@@ -10,4 +10,6 @@ mod joints;
 mod orders;
 mod reciprocity;
 mod rods;
+mod rods_balance;
 mod rods_of_cases;
+mod rods_relax;

@@ -25,9 +25,9 @@ pub use error::{SolveError, coordinates};
 pub use flexible_equation::FlexibleEquation;
 pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{
-    BodyLoads, BodyStates, JointReport, LoadedBodies, MeanMotion, PropulsionPower, ResidualOnMesh,
-    SurfaceLoads, SurfaceStress, group_load, joint_reports, mean_motion, propulsion_power,
-    surface_loads,
+    BaseReport, BodyLoads, BodyStates, FlexibleReport, FlexibleStates, JointReport, LoadedBodies,
+    MeanMotion, PropulsionPower, ResidualOnMesh, SurfaceLoads, SurfaceStress, flexible_report,
+    group_load, joint_reports, mean_motion, propulsion_power, surface_loads,
 };
 pub use mean_flow::MeanFlowReport;
 pub use problem::{

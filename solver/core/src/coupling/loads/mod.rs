@@ -3,6 +3,7 @@
 //! The residual tested with a function that is 1 on the body is minus the fluid's force on it;
 //! for P2-P1 it converges about twice as fast as an integral of the stress (@babuska1984).
 
+mod flexible_loads;
 mod joint_loads;
 mod propulsion;
 mod surface_load;
@@ -12,6 +13,7 @@ use std::collections::HashMap;
 use alewife_mesh::{BoundaryId, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
+pub use self::flexible_loads::{BaseReport, FlexibleReport, FlexibleStates, flexible_report};
 pub use self::joint_loads::{BodyStates, JointReport, joint_reports};
 pub use self::propulsion::{
     LoadedBodies, MeanMotion, PropulsionPower, group_load, mean_motion, propulsion_power,
