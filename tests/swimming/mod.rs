@@ -2,6 +2,7 @@
 //! without inertia, copies and contact.
 
 mod articulated;
+mod cilia;
 mod crowd;
 mod cycle_error;
 mod deforming;

@@ -4,7 +4,7 @@ use super::Model;
 use super::commands::Commands;
 use crate::spec::body::command::Command;
 use crate::{
-    Body, BoundaryCondition, GaitSpec, JointKind, MagneticSpec, Motion, Stroke, TimeFunction,
+    Body, BoundaryCondition, GaitSpec, Hold, JointKind, MagneticSpec, Motion, Stroke, TimeFunction,
 };
 
 /// A command of a body or a side: what it is called there, the key below that of its owner, and the command.
@@ -131,6 +131,19 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
         && let Some(command) = of_factor(imposed.factor.as_mut())
     {
         found.push(("motion".to_owned(), "motion.imposed.factor".to_owned(), command));
+    }
+    let muscles = body.activation.iter_mut().flat_map(|active| {
+        [("curvature", active.curvature.as_mut()), ("moment", active.moment.as_mut())]
+    });
+    for (name, stroke) in muscles {
+        if let Some(command) = of_stroke(stroke) {
+            found.push(("activation".to_owned(), format!("activation.{name}"), command));
+        }
+    }
+    if let Some(Hold::Angle(angle)) = body.attached.as_mut().map(|attached| &mut attached.hold)
+        && let Some(command) = of_stroke(Some(angle))
+    {
+        found.push(("angle".to_owned(), "attached.hold.angle".to_owned(), command));
     }
     match &mut body.gait {
         Some(GaitSpec::Squirmer(gait)) => {

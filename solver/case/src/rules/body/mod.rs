@@ -1,5 +1,6 @@
 //! Problems of bodies, of what they are joined by and of how they move.
 
+mod activation;
 mod attached;
 pub(super) mod beside_rod;
 pub(super) mod bodies;
@@ -8,6 +9,7 @@ pub(super) mod joints;
 mod joints_in_space;
 mod rod;
 mod skin;
+mod slender;
 mod solid;
 mod spring;
 pub(super) mod strokes;
