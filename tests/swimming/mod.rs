@@ -2,6 +2,7 @@
 //! without inertia, copies and contact.
 
 mod articulated;
+mod cilia;
 mod crowd;
 mod cycle_error;
 mod deforming;
@@ -10,4 +11,6 @@ mod joints;
 mod orders;
 mod reciprocity;
 mod rods;
+mod rods_balance;
 mod rods_of_cases;
+mod rods_relax;

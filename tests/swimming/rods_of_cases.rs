@@ -129,3 +129,25 @@ fn a_rod_on_a_mesh_that_is_replaced_ends_with_the_same_bits() {
         assert!(bits(&rest) == bits(&whole), "stopped after {steps} steps");
     }
 }
+
+/// Behind a free disc, which it pushes as its muscles begin to beat.
+#[test]
+fn a_rod_on_a_free_body_ends_with_the_same_bits() {
+    let body = r#"
+        rod = { bending = 0.2, elements = 12 }
+        attached = { to = "head", hold = "clamped" }
+        activation = { curvature.sine = { amplitude = 4.0, period = 1.0, ramp = 0.3 }, wave_speed = 1.5 }
+        [[body]]
+        name = "head"
+        shape.disc.radius = 0.1
+        center = [0.76, 0.05]
+        motion = "free"
+        "#;
+    let model = slender("step = 0.05, end = 1.0", body);
+    let whole = simulate::<2>(&model, &mut []).expect("the case runs");
+    assert!(last(&whole, "flow.remeshes") >= 1.0, "{}", last(&whole, "flow.remeshes"));
+    assert!(last(&whole, "head.angle").abs() > 1e-3, "{}", last(&whole, "head.angle"));
+    let saved: SavedState<2> = stopped(&model, 12);
+    let rest = resumed(&model, &saved).expect("it continues");
+    assert!(bits(&rest) == bits(&whole));
+}

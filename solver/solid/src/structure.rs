@@ -35,6 +35,25 @@ pub trait Structure: Send + Sync {
 
     /// Elastic energy (J, in planar problems per length), which has no part of what is active.
     fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64;
+
+    /// Power of activation and damping at a time (s); none of what has neither.
+    fn inner_power(
+        &self,
+        _coordinates: &DVector<f64>,
+        _velocities: &DVector<f64>,
+        _time: f64,
+    ) -> InnerPower {
+        InnerPower::default()
+    }
+}
+
+/// Power within a structure at an instant (W, in planar problems per length).
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct InnerPower {
+    /// Of active moments, and of rest curvatures that change: what muscles or motors give.
+    pub activation: f64,
+    /// What damping takes.
+    pub dissipation: f64,
 }
 
 /// A structure with a surface, whose material points are named by their places at rest (m).
@@ -62,10 +81,35 @@ pub trait Flexible: Structure + std::fmt::Debug {
         None
     }
 
+    /// Where its base is and how it moves, of bodies that have one; seen as places are.
+    fn base(&self, _coordinates: &DVector<f64>, _velocities: &DVector<f64>) -> Option<BaseMotion> {
+        None
+    }
+
+    /// Velocities (n) of the structure in a rigid motion, of bodies of which they are known; seen as places are.
+    fn rigid_velocities(
+        &self,
+        _coordinates: &DVector<f64>,
+        _motion: &BaseMotion,
+    ) -> Option<DVector<f64>> {
+        None
+    }
+
     /// How far the centre has come since time zero (m).
     fn way_of_center(&self, coordinates: &DVector<f64>) -> Vector3<f64> {
         weighted(&self.center_weights(), &(coordinates - self.initial()))
     }
+}
+
+/// A point with the rigid motion there: of the base of a structure, or of all of it.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct BaseMotion {
+    /// Place (m).
+    pub place: Vector3<f64>,
+    /// Velocity (m/s).
+    pub velocity: Vector3<f64>,
+    /// Angular velocity (rad/s).
+    pub angular_velocity: Vector3<f64>,
 }
 
 /// How a midline is bent.

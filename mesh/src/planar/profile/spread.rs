@@ -19,6 +19,9 @@ const JUMP_ERROR: f64 = 0.03;
 /// Error of the spline that is aimed at, over the half width.
 const ERROR: f64 = 2e-5;
 
+/// Most steps on a piece: lengths that ask for more make no body that can be meshed.
+const MOST_STEPS: f64 = 1e5;
+
 /// Parameters of the material points of a piece but its first, `longest` (m) apart at most, close to
 /// each other where the outline bends and where its curvature jumps.
 pub fn spread(pieces: &[Piece], index: usize, longest: f64) -> Vec<f64> {
@@ -49,7 +52,7 @@ pub fn spread(pieces: &[Piece], index: usize, longest: f64) -> Vec<f64> {
         steps.push(steps[steps.len() - 1] + part / wanted);
         done += part;
     }
-    let count = steps[steps.len() - 1].ceil().max(2.0);
+    let count = steps[steps.len() - 1].ceil().clamp(2.0, MOST_STEPS);
     let scale = steps[steps.len() - 1] / count;
     let mut parameters: Vec<f64> = (1..number::whole(count))
         .map(|k| {

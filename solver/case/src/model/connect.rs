@@ -4,7 +4,7 @@ use super::Model;
 use super::commands::Commands;
 use crate::spec::body::command::Command;
 use crate::{
-    Body, BoundaryCondition, DrivenLaw, GaitSpec, JointKind, MagneticSpec, Motion, Stroke,
+    Body, BoundaryCondition, DrivenLaw, GaitSpec, Hold, JointKind, MagneticSpec, Motion, Stroke,
     TimeFunction,
 };
 
@@ -150,6 +150,19 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
         if let Some(command) = command {
             found.push((format!("motion.{what}"), format!("motion.{what}.{below}"), command));
         }
+    }
+    let muscles = body.activation.iter_mut().flat_map(|active| {
+        [("curvature", active.curvature.as_mut()), ("moment", active.moment.as_mut())]
+    });
+    for (name, stroke) in muscles {
+        if let Some(command) = of_stroke(stroke) {
+            found.push(("activation".to_owned(), format!("activation.{name}"), command));
+        }
+    }
+    if let Some(Hold::Angle(angle)) = body.attached.as_mut().map(|attached| &mut attached.hold)
+        && let Some(command) = of_stroke(Some(angle))
+    {
+        found.push(("angle".to_owned(), "attached.hold.angle".to_owned(), command));
     }
     match &mut body.gait {
         Some(GaitSpec::Squirmer(gait)) => {

@@ -54,6 +54,8 @@ pub fn columns(model: &Model) -> Vec<Column> {
         let own = [
             Condition::Moment.holding_if(is_magnet),
             Condition::Rod.holding_if(body.rod.is_some()),
+            Condition::Activation.holding_if(body.activation.is_some()),
+            Condition::Attached.holding_if(body.attached.is_some()),
         ];
         let known: Vec<Condition> =
             of_case.iter().copied().chain(own.into_iter().flatten()).collect();

@@ -91,6 +91,10 @@ pub enum Condition {
     FieldGradient,
     /// The body is an elastic rod.
     Rod,
+    /// It is one with muscles or motors.
+    Activation,
+    /// It is one whose head is attached.
+    Attached,
 }
 
 impl Condition {
@@ -123,6 +127,8 @@ impl Condition {
             Self::Moment => "[`magnetic_moment`](#field)",
             Self::FieldGradient => "a [field](#field) of place",
             Self::Rod => "[`rod`](#bodies-that-bend-by-themselves)",
+            Self::Activation => "[`activation`](#bodies-that-bend-by-themselves)",
+            Self::Attached => "[`attached`](#bodies-that-bend-by-themselves)",
         }
     }
 }

@@ -77,6 +77,19 @@ quantities! {
             "Work of the magnetic field on the body";
         ElasticEnergy: Scalar, "elastic_energy", "J (J/m)", [Rod],
             "Elastic energy of the rod, none of it of muscles";
+        KineticEnergy: Scalar, "kinetic_energy", "J (J/m)", [Rod],
+            "Kinetic energy of the rod; 0 in `stokes`";
+        ActivationPower: Scalar, "activation_power", "W (W/m)", [Activation],
+            "Work of muscles or motors within the rod: of active moments, and of a rest curvature that changes";
+        InternalDissipation: Scalar, "internal_dissipation", "W (W/m)", [Rod],
+            "What the damping of the rod takes";
+        BaseForce: Vector, "base_force", "N (N/m)", [Attached],
+            "Force on the rod at its head by what it is attached to; the opposite acts on that";
+        BaseTorque: rotation("The same about the head, in the laboratory"), "base_torque", "N m (N)",
+            [Attached], "Torque on the rod about its head by what it is attached to; 0 where it is hinged";
+        BasePower: Scalar, "base_power", "W (W/m)", [Attached],
+            "Work on the rod of what it is attached to: with that of muscles and loads it is `power`, \
+             `internal_dissipation` and the growth of elastic and kinetic energy";
         Tip: Vector, "tip", "m", [Rod], "End of the midline at the tail, in the laboratory";
         Curvature: Scalar, "curvature", "1/m", [Rod],
             "Curvature of the midline where it is largest in size, positive where the body turns \
@@ -192,8 +205,8 @@ quantities! {
              energy balance; NaN while there is too little work to tell";
         MomentumDefect: Scalar, "momentum_defect", "1", [ClosedSides],
             "Impulse of the forces less the change of momentum, summed over the fluid and each free \
-             body without joint or spring, over the momentum exchanged by sides and bodies since the \
-             twentieth row: the error of the balance of momentum; NaN while that is too little to tell";
+             body without joint or spring, and without a head that the laboratory holds, over the \
+             momentum exchanged by sides and bodies since the twentieth row: the error of the balance of momentum; NaN while that is too little to tell";
         ContactEnergy: Scalar, "contact_energy", "J (J/m)", [Contact],
             "Energy stored in contact: what bodies get back of their kinetic energy";
         ContactEnergyMade: Scalar, "contact_energy_made", "J (J/m)", [Contact],

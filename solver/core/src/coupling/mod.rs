@@ -25,9 +25,10 @@ pub use error::{SolveError, coordinates};
 pub use flexible_equation::FlexibleEquation;
 pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{
-    BodyLoads, BodyStates, JointReport, LoadDerivatives, LoadWeights, LoadedBodies, MeanMotion,
-    PropulsionPower, ResidualOnMesh, SideFlow, SurfaceLoads, SurfaceStress, group_load,
-    joint_reports, load_derivatives, mean_motion, propulsion_power, surface_loads,
+    BaseReport, BodyLoads, BodyStates, FlexibleReport, FlexibleStates, JointReport,
+    LoadDerivatives, LoadWeights, LoadedBodies, MeanMotion, PropulsionPower, ResidualOnMesh,
+    SideFlow, SurfaceLoads, SurfaceStress, flexible_report, group_load, joint_reports,
+    load_derivatives, mean_motion, propulsion_power, surface_loads,
 };
 pub use mean_flow::MeanFlowReport;
 pub use problem::{

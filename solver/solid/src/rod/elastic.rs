@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use super::error::RodError;
 use super::kinematics::{Gradients, Kinematics, StrainKind, gradients, second_derivatives};
 use super::properties::{Flexure, RodProperties, positive};
-use crate::structure::{Structure, Tangents};
+use crate::structure::{InnerPower, Structure, Tangents};
 
 /// A rod whose elements have N coordinates and S strains: [`super::PlanarRod`] or [`super::SpatialRod`].
 #[derive(Debug, Clone)]
@@ -55,15 +55,6 @@ struct Activity {
     rest: f64,
     rest_rate: f64,
     moment: f64,
-}
-
-/// Power of a rod at an instant (W, in planar problems per length).
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct RodPower {
-    /// Of active moments, and of rest curvatures that change: what muscles or motors give.
-    pub activation: f64,
-    /// What damping takes.
-    pub dissipation: f64,
 }
 
 /// An element at an instant.
@@ -188,28 +179,6 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
         }
         largest
     }
-
-    /// Power of activation and damping at a time (s).
-    #[must_use]
-    pub fn power(
-        &self,
-        coordinates: &DVector<f64>,
-        velocities: &DVector<f64>,
-        time: f64,
-    ) -> RodPower {
-        let mut power = RodPower::default();
-        for (element, laws) in self.laws.iter().enumerate() {
-            let Instant { gradients, rates, .. } =
-                self.instant(element, coordinates, velocities, time);
-            for (i, law) in laws.iter().enumerate() {
-                let Activity { rest, rest_rate, moment } = self.activity(law, time);
-                let of_rest = -law.stiffness * (gradients.values[i] - rest) * rest_rate;
-                power.activation += law.weight * (of_rest + moment * rates[i]);
-                power.dissipation += law.weight * law.damping * rates[i] * rates[i];
-            }
-        }
-        power
-    }
 }
 
 impl<K: Kinematics<N, S>, const N: usize, const S: usize> Structure for Rod<K, N, S> {
@@ -282,5 +251,25 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Structure for Rod<K, N
             }
         }
         energy
+    }
+
+    fn inner_power(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> InnerPower {
+        let mut power = InnerPower::default();
+        for (element, laws) in self.laws.iter().enumerate() {
+            let Instant { gradients, rates, .. } =
+                self.instant(element, coordinates, velocities, time);
+            for (i, law) in laws.iter().enumerate() {
+                let Activity { rest, rest_rate, moment } = self.activity(law, time);
+                let of_rest = -law.stiffness * (gradients.values[i] - rest) * rest_rate;
+                power.activation += law.weight * (of_rest + moment * rates[i]);
+                power.dissipation += law.weight * law.damping * rates[i] * rates[i];
+            }
+        }
+        power
     }
 }

@@ -24,7 +24,7 @@ mod supports;
 mod tests;
 
 pub use along::{Along, Field, Varying};
-pub use elastic::{Rod, RodPower};
+pub use elastic::Rod;
 pub use end::{End, Support};
 pub use error::RodError;
 pub use loads::{LineForce, Resistance};

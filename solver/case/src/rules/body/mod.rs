@@ -1,5 +1,6 @@
 //! Problems of bodies, of what they are joined by and of how they move.
 
+mod activation;
 mod attached;
 pub(super) mod beside_rod;
 pub(super) mod bodies;
@@ -10,6 +11,7 @@ pub(super) mod motion;
 mod polygon;
 mod rod;
 mod skin;
+mod slender;
 mod solid;
 mod spring;
 pub(super) mod strokes;

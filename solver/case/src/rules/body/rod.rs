@@ -1,14 +1,9 @@
 //! Problems of `body.rod`, `attached` and `activation`: rods of no body, that fold, or that are held nowhere.
 
-use super::{attached, beside_rod};
+use super::slender::{Slender, rises_along, too_sharp};
+use super::{activation, attached, beside_rod};
 use crate::rules::Findings;
-use crate::{Activation, AlongBody, Body, Hold, RestShape, RodSpec, Stroke};
-
-/// A table may end behind the tail by this part of the length: that of a fish is that up to where its sides would meet.
-const BEHIND: f64 = 0.1;
-
-/// Half width over the radius of curvature at rest above which a rod is no slender one.
-const BENT: f64 = 0.5;
+use crate::{AlongBody, Body, Hold, RestShape, RodSpec};
 
 pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let Some(rod) = &body.rod else {
@@ -37,19 +32,12 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     if let Some(attached) = &body.attached {
         attached::check(findings, &format!("{key}.attached"), body, attached, body_of.length);
         if let Hold::Angle(angle) = &attached.hold {
-            has_rate(findings, &format!("{key}.attached.hold.angle"), angle);
+            activation::stroke(findings, &format!("{key}.attached.hold.angle"), angle);
         }
     }
     if let Some(active) = &body.activation {
-        activation(findings, &format!("{key}.activation"), active, body_of);
+        activation::check(findings, &format!("{key}.activation"), active, body_of);
     }
-}
-
-/// Lengths of a slender body (m).
-#[derive(Clone, Copy)]
-struct Slender {
-    length: f64,
-    half_width: f64,
 }
 
 fn without_rod(findings: &mut Findings<'_>, key: &str, body: &Body) {
@@ -86,22 +74,6 @@ fn stiffness(findings: &mut Findings<'_>, key: &str, rod: &RodSpec, body: Slende
     }
 }
 
-/// Distances of a table rise from row to row, and lie on the body.
-fn rises_along(findings: &mut Findings<'_>, key: &str, rows: &[[f64; 2]], body: Slender) {
-    let does_rise = rows.windows(2).all(|pair| pair[1][0] > pair[0][0]);
-    let is_inside = rows.iter().all(|row| (0.0..=body.length * (1.0 + BEHIND)).contains(&row[0]));
-    if rows.is_empty() || !does_rise || !is_inside {
-        findings.error(
-            key,
-            format!(
-                "the table has no distances that rise from the head to the tail at {}",
-                body.length
-            ),
-            "write [[distance from the head, value], ...] with distances from 0 to the length",
-        );
-    }
-}
-
 fn rest(findings: &mut Findings<'_>, key: &str, rod: &RodSpec, body: Slender) {
     let Some(rest) = &rod.rest else { return };
     let key = match rest {
@@ -113,73 +85,39 @@ fn rest(findings: &mut Findings<'_>, key: &str, rod: &RodSpec, body: Slender) {
         }
     };
     too_sharp(findings, &key, rest.sharpest(), body, "at rest");
-}
-
-/// A rod must not be thicker than it is bent.
-fn too_sharp(findings: &mut Findings<'_>, key: &str, curvature: f64, body: Slender, when: &str) {
-    let part = curvature * body.half_width;
-    if part >= 1.0 {
+    if rest.sharpest() * body.half_width < 1.0
+        && let Some([from, to]) = crossing(rest, body)
+    {
         findings.error(
-            key,
-            format!(
-                "{when} the radius of curvature is {}, and half of the thickness {}: the body would \
-                 fold",
-                1.0 / curvature,
-                body.half_width
-            ),
-            &format!("write a curvature well below {}", 1.0 / body.half_width),
-        );
-    } else if part > BENT {
-        findings.warning(
-            key,
-            format!(
-                "{when} the radius of curvature is {} only, and half of the thickness {}: that is no \
-                 slender body",
-                1.0 / curvature,
-                body.half_width
-            ),
-            &format!("write a curvature below {}, or make the body thinner", BENT / body.half_width),
+            &key,
+            format!("at rest the body meets itself, {from} and {to} from its head"),
+            "write smaller curvatures: over the length they turn it too far round",
         );
     }
 }
 
-/// Rates that jump would need infinite loads of a body with mass.
-fn has_rate(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
-    let name = match stroke {
-        Stroke::Table(_) => "a `table`",
-        Stroke::Legs { smooth: false, .. } => "`legs` of straight lines",
-        _ => return,
+/// Distances from the head (m) of two points of a body that are on each other at rest, if there are any.
+fn crossing(rest: &RestShape, body: Slender) -> Option<[f64; 2]> {
+    const POINTS: u32 = 256;
+    let step = body.length / f64::from(POINTS);
+    let (mut places, mut place, mut angle) = (vec![[0.0_f64; 2]], [0.0, 0.0], 0.0_f64);
+    for nth in 0..POINTS {
+        let curvature = rest.at((f64::from(nth) + 0.5) * step);
+        let (sin, cos) = (angle + 0.5 * curvature * step).sin_cos();
+        place = [place[0] + cos * step, place[1] + sin * step];
+        angle += curvature * step;
+        places.push(place);
+    }
+    // Nearer ones are neighbours
+    let apart = (4.0 * body.half_width / step).ceil() as usize;
+    let meets = |one: &[f64; 2], other: &[f64; 2]| {
+        (one[0] - other[0]).hypot(one[1] - other[1]) < 2.0 * body.half_width
     };
-    findings.error(
-        key,
-        format!("the rate of {name} jumps, and a rod cannot follow that"),
-        "write a `sine`, a `file`, or `legs` with smooth = true",
-    );
-}
-
-fn activation(findings: &mut Findings<'_>, key: &str, active: &Activation, body: Slender) {
-    if active.curvature.is_some() == active.moment.is_some() {
-        findings.error(
-            key,
-            "an activation is either a `curvature` or a `moment`".to_owned(),
-            "write curvature = ... (1/m), or moment = ... (N m; N planar)",
-        );
-    }
-    if !active.envelope.is_empty() {
-        rises_along(findings, &format!("{key}.envelope"), &active.envelope, body);
-    }
-    if let Some(curvature) = &active.curvature {
-        let key = format!("{key}.curvature");
-        has_rate(findings, &key, curvature);
-        let factor = active.envelope.iter().map(|row| row[1].abs()).fold(0.0, f64::max);
-        let factor = if active.envelope.is_empty() { 1.0 } else { factor };
-        if let Stroke::Sine { mean, amplitude, .. } = curvature {
-            let sharpest = factor * (mean.abs() + amplitude.abs());
-            too_sharp(findings, &key, sharpest, body, "at its sharpest");
-        } else if let Stroke::Constant(value) = curvature {
-            too_sharp(findings, &key, factor * value.abs(), body, "at its sharpest");
-        }
-    }
+    places.iter().enumerate().find_map(|(first, one)| {
+        let later = places.iter().enumerate().skip(first + apart);
+        let (second, _) = later.into_iter().find(|(_, other)| meets(one, other))?;
+        Some([first as f64 * step, second as f64 * step])
+    })
 }
 
 #[cfg(test)]
@@ -232,6 +170,7 @@ name = 'b'
             "rod = { bending = 1 }",
             "rod = { young = 1e3, damping = 0.1, elements = 30, stretching = 1e6 }",
             "rod = { bending = [[0.0, 1.0], [1.0, 0.1]], rest.curvature = 2.0 }",
+            "rod = { bending = 1.0, rest.curvature = -5.0 }",
             "rod = { bending = 1.0, rest.table = [[0.0, 1.0], [1.0, -1.0]] }\n\
              attached.hold = 'clamped'",
             "rod.bending = 1.0\nattached.hold = { angle = { sine = { amplitude = '20 deg', period = 1.0 } } }",
@@ -258,6 +197,12 @@ name = 'b'
             (fish("rod = { bending = 1.0, damping = -1.0 }"), "rod.damping"),
             (fish("rod = { bending = 1.0, rest.curvature = 30.0 }"), "rod.rest.curvature"),
             (fish("rod = { bending = 1.0, rest.table = [] }"), "rod.rest.table"),
+            (fish("rod = { bending = 1.0, rest.curvature = 7.0 }"), "rod.rest.curvature"),
+            (
+                fish("rod = { bending = 1.0, rest.table = [[0.0, 10.0], [1.0, 10.0]] }"),
+                "rod.rest.table",
+            ),
+            (fish("rod = { bending = 1.0, elements = 100000 }"), "rod.elements"),
             (rod("gait.carangiform.period = 1.0"), "gait"),
             (rod("locked = ['x']"), "locked"),
             (rod("torque = 1.0"), "torque"),
@@ -282,6 +227,32 @@ name = 'b'
                 "activation.envelope",
             ),
             (rod("activation.curvature.constant = 40.0"), "activation.curvature"),
+            (
+                rod("activation.curvature.command = { filter = 0.5 }"),
+                "activation.curvature.command.limits",
+            ),
+            (
+                rod("activation = { wave_speed = -1.0, moment.command = { filter = 0.5 } }"),
+                "activation.wave_speed",
+            ),
+            (
+                rod(
+                    "activation = { wave_speed = 1.0, moment.cubic = [[0.0, 0.0, 0.0], [2.0, 1.0, 0.0]] }",
+                ),
+                "activation.moment.cubic",
+            ),
+            (
+                rod(
+                    "activation.moment.legs = { knots = [[0.5, 0.0]], period = 1.0, smooth = true }",
+                ),
+                "activation.moment.legs.knots",
+            ),
+            (
+                rod(
+                    "attached.hold.angle.command = { start = 2.0, limits = [-1.0, 1.0], filter = 0.5 }",
+                ),
+                "attached.hold.angle.command.start",
+            ),
             (fish("attached.hold = 'clamped'"), "attached"),
             (fish("activation.moment.constant = 1.0"), "activation"),
             (

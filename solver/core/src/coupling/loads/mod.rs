@@ -4,6 +4,7 @@
 //! for P2-P1 it converges about twice as fast as an integral of the stress (@babuska1984).
 
 mod derivative;
+mod flexible_loads;
 mod joint_loads;
 mod propulsion;
 mod side_loads;
@@ -15,6 +16,7 @@ use alewife_mesh::{BoundaryId, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
 pub use self::derivative::{LoadDerivatives, LoadWeights, load_derivatives};
+pub use self::flexible_loads::{BaseReport, FlexibleReport, FlexibleStates, flexible_report};
 pub use self::joint_loads::{BodyStates, JointReport, joint_reports};
 pub use self::propulsion::{
     LoadedBodies, MeanMotion, PropulsionPower, group_load, mean_motion, propulsion_power,

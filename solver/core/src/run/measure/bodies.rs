@@ -6,7 +6,8 @@ use super::value::Value;
 use crate::body::{Twist, Wrench, on_mesh};
 use crate::case::{BodyQuantity, Case, Geometry, JointQuantity};
 use crate::coupling::{
-    BodyLoads, BodyShapes, BodyStates, JointReport, Problem, RigidBody, ShapeError, joint_reports,
+    BaseReport, BodyLoads, BodyShapes, BodyStates, FlexibleReport, FlexibleStates, JointReport,
+    Problem, RigidBody, ShapeError, flexible_report, joint_reports,
 };
 use crate::gait::RecoilCorrection;
 use crate::run::RunError;
@@ -62,18 +63,21 @@ impl MagneticReport {
 }
 
 /// The rod a body is.
+#[derive(Clone, Copy)]
 pub(super) struct RodReport {
-    elastic_energy: f64,
+    energies: FlexibleReport,
     bend: Bend,
 }
 
 impl RodReport {
-    /// Of a body, if it is one.
+    /// Of a body, if it is one, with the loads of the fluid on all bodies.
     pub(super) fn of<const D: usize>(
         problem: &Problem<D>,
         state: &State<D>,
+        loads: &[BodyLoads],
         body: usize,
     ) -> Option<Self> {
+        let energies = flexible_report(problem, body, &flexible_states(state, loads))?;
         let (rigid, pose) = (&problem.bodies[body], &state.poses[body]);
         let flexible = rigid.flexible()?;
         let own = problem.coordinates()[body].clone();
@@ -82,8 +86,22 @@ impl RodReport {
         // Places are seen from where the body was put, its pose from where its centre is
         let from_center = bend.tip - flexible.way_of_center(&coordinates);
         let tip = pose.center + pose.to_world(&from_center);
-        let elastic_energy = problem.elastic_energy(body, &state.shapes.now, state.time);
-        Some(Self { elastic_energy, bend: Bend { tip, ..bend } })
+        Some(Self { energies, bend: Bend { tip, ..bend } })
+    }
+}
+
+/// Bodies with coordinates in a state, with the loads of the fluid on all bodies.
+pub(in crate::run) fn flexible_states<'a, const D: usize>(
+    state: &'a State<D>,
+    loads: &'a [BodyLoads],
+) -> FlexibleStates<'a> {
+    FlexibleStates {
+        time: state.time,
+        coordinates: &state.shapes.now,
+        rates: &state.now.rates,
+        accelerations: &state.shapes.accelerations,
+        poses: &state.poses,
+        loads,
     }
 }
 
@@ -105,6 +123,10 @@ impl BodyMotion<'_> {
 
     fn of_rod(&self, value: impl Fn(&RodReport) -> f64) -> Value {
         self.rod.as_ref().map_or(f64::NAN, value).into()
+    }
+
+    fn base(&self) -> Option<BaseReport> {
+        self.rod.as_ref().and_then(|rod| rod.energies.base)
     }
 
     pub(super) fn value(&self, quantity: BodyQuantity) -> Value {
@@ -136,7 +158,13 @@ impl BodyMotion<'_> {
                 let power = |load: Wrench| load.to_vector().dot(&twist.to_vector());
                 self.magnetic_load().map_or(f64::NAN, power).into()
             }
-            BodyQuantity::ElasticEnergy => self.of_rod(|rod| rod.elastic_energy),
+            BodyQuantity::ElasticEnergy => self.of_rod(|rod| rod.energies.elastic_energy),
+            BodyQuantity::KineticEnergy => self.of_rod(|rod| rod.energies.kinetic_energy),
+            BodyQuantity::ActivationPower => self.of_rod(|rod| rod.energies.inner.activation),
+            BodyQuantity::InternalDissipation => self.of_rod(|rod| rod.energies.inner.dissipation),
+            BodyQuantity::BaseForce => Value::of(self.base().map(|base| base.load.force)),
+            BodyQuantity::BaseTorque => Value::of(self.base().map(|base| base.load.torque)),
+            BodyQuantity::BasePower => self.base().map_or(f64::NAN, |base| base.power).into(),
             BodyQuantity::Curvature => self.of_rod(|rod| rod.bend.curvature),
             BodyQuantity::Tip => Value::of(self.rod.as_ref().map(|rod| rod.bend.tip)),
             BodyQuantity::ContactForce => contact.force.into(),

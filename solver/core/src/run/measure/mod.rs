@@ -15,10 +15,10 @@ mod value;
 
 use alewife_mesh::{Mesh, Point};
 
-pub(super) use self::bodies::measure_joints;
 use self::bodies::{
     BodyMotion, Coefficients, MagneticReport, RodReport, body_reports, joint_value,
 };
+pub(super) use self::bodies::{flexible_states, measure_joints};
 pub(super) use self::flow::FlowMeasurement;
 use self::momentum::momentum_record;
 use self::probes::{ProbePlaces, Probes};
@@ -156,6 +156,9 @@ impl<const D: usize> Measure<D> {
             })
             .collect();
         let probes = self.probes.values(state);
+        let rods: Vec<_> = (0..problem.bodies.len())
+            .map(|body| RodReport::of(problem, state, &loads.bodies, body))
+            .collect();
         self.balance(problem, state, loads, &mut flow);
         let value = |column: &Column| match column.source {
             Source::Body(body, quantity) => BodyMotion {
@@ -164,7 +167,7 @@ impl<const D: usize> Measure<D> {
                 acceleration: &state.accelerations[body],
                 coefficients: &self.coefficients,
                 magnetic: MagneticReport::of(problem, state, body),
-                rod: RodReport::of(problem, state, body),
+                rod: rods[body],
             }
             .value(quantity),
             Source::Joint(joint, quantity) => joint_value(&joints[joint], quantity),

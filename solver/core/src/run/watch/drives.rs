@@ -9,9 +9,9 @@ use crate::body::{Mode, Pose, in_space};
 use crate::contact::MinimumGap;
 use crate::coupling::{
     Drive, Joint, JointReport, Length, MeanFlowAlong, RigidBody, ShapeError, Side, SurfaceLoads,
-    Turn,
+    Turn, flexible_report,
 };
-use crate::run::measure::measure_joints;
+use crate::run::measure::{flexible_states, measure_joints};
 use crate::run::simulation::Simulation;
 use crate::state::{Drives, LoadStep};
 
@@ -76,9 +76,18 @@ impl<const D: usize> Simulation<D> {
         let mean_flow = work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now);
         let counted = self.counted();
         power += mean_flow.map_or(0.0, |report| supplied(report.power));
+        let flexible = flexible_states(state, &loads.bodies);
         for (index, body) in problem.bodies.iter().enumerate() {
             let (twist, pose) = (state.now.twists[index].to_vector(), &state.poses[index]);
             let fluid = loads.bodies[index];
+            if let Some(report) = flexible_report(problem, index, &flexible) {
+                power += supplied(report.inner.activation);
+                // What a body does whose energy is counted comes from it
+                let is_outer =
+                    body.attachment.as_ref().is_none_or(|attachment| !counted[attachment.to]);
+                let base = report.base.filter(|_| is_outer);
+                power += base.map_or(0.0, |base| supplied(base.power));
+            }
             if counted[index] {
                 power += supplied(body.external(state.time, pose).dot(&twist));
                 // That of its surface on the fluid beside its motion as a whole
@@ -141,7 +150,7 @@ impl<const D: usize> Simulation<D> {
             |body: &RigidBody| body.drives.iter().any(|drive| matches!(drive, Drive::Given(_)));
         let mut is_known: Vec<bool> = bodies.iter().map(|body| !is_moved(body)).collect();
         for (body, &root) in bodies.iter().zip(&roots) {
-            is_known[root] &= body.shape.is_none();
+            is_known[root] &= body.shape.is_none() || body.flexible().is_some();
         }
         roots.into_iter().map(|root| is_known[root]).collect()
     }

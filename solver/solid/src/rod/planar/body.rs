@@ -8,7 +8,9 @@ use super::surface::{SectionPoint, SurfaceRows};
 use crate::rod::center::center_weights;
 use crate::rod::loads::LineForce;
 use crate::rod::supports::Supports;
-use crate::structure::{Bend, Flexible, Held, Load, Structure, Tangents, Weight};
+use crate::structure::{
+    BaseMotion, Bend, Flexible, Held, InnerPower, Load, Structure, Tangents, Weight,
+};
 
 /// A planar rod as a body in a flow. Its material points are named by their places where the rod is straight.
 #[derive(Debug)]
@@ -97,6 +99,15 @@ impl Structure for PlanarRodBody {
     fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64 {
         self.rod.elastic_energy(coordinates, time)
     }
+
+    fn inner_power(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> InnerPower {
+        self.rod.inner_power(coordinates, velocities, time)
+    }
 }
 
 impl Flexible for PlanarRodBody {
@@ -123,6 +134,18 @@ impl Flexible for PlanarRodBody {
 
     fn center_weights(&self) -> Vec<Weight> {
         center_weights(&self.rod)
+    }
+
+    fn base(&self, coordinates: &DVector<f64>, velocities: &DVector<f64>) -> Option<BaseMotion> {
+        Some(self.rod.base_motion(coordinates, velocities))
+    }
+
+    fn rigid_velocities(
+        &self,
+        coordinates: &DVector<f64>,
+        motion: &BaseMotion,
+    ) -> Option<DVector<f64>> {
+        Some(self.rod.rigid_velocities(coordinates, motion))
     }
 
     fn bend(&self, coordinates: &DVector<f64>) -> Option<Bend> {

@@ -1,10 +1,10 @@
 //! How the ends of a planar rod are held, and what their supports carry.
 
-use nalgebra::{DVector, SMatrix, Vector2};
+use nalgebra::{DVector, SMatrix, Vector2, Vector3};
 
 use super::planar_rod::PlanarRod;
 use crate::rod::end::{End, Support};
-use crate::structure::Held;
+use crate::structure::{BaseMotion, Held};
 
 /// Place and direction of an end and how they change: of a support that moves as a function of time, or of a point
 /// of a rigid body.
@@ -91,5 +91,38 @@ impl PlanarRod {
             force: Vector2::new(residual[first], residual[first + 1]),
             moment: tangent.x * residual[first + 3] - tangent.y * residual[first + 2],
         }
+    }
+
+    /// Where the base is, and how it moves.
+    pub(super) fn base_motion(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+    ) -> BaseMotion {
+        let [tangent, rate] = [coordinates, velocities].map(|of| Vector2::new(of[2], of[3]));
+        BaseMotion {
+            place: Vector3::new(coordinates[0], coordinates[1], 0.0),
+            velocity: Vector3::new(velocities[0], velocities[1], 0.0),
+            angular_velocity: Vector3::z() * (tangent.perp(&rate) / tangent.norm_squared()),
+        }
+    }
+
+    /// Velocities in a rigid motion.
+    pub(super) fn rigid_velocities(
+        &self,
+        coordinates: &DVector<f64>,
+        motion: &BaseMotion,
+    ) -> DVector<f64> {
+        let BaseMotion { place, velocity, angular_velocity } = motion;
+        let mut rates = DVector::zeros(coordinates.len());
+        for knot in (0..coordinates.len()).step_by(Self::STRIDE) {
+            let arm = Vector2::new(coordinates[knot], coordinates[knot + 1]) - place.xy();
+            let tangent = Vector2::new(coordinates[knot + 2], coordinates[knot + 3]);
+            let turning =
+                |vector: Vector2<f64>| Vector2::new(-vector.y, vector.x) * angular_velocity.z;
+            rates.fixed_rows_mut::<2>(knot).copy_from(&(velocity.xy() + turning(arm)));
+            rates.fixed_rows_mut::<2>(knot + 2).copy_from(&turning(tangent));
+        }
+        rates
     }
 }

@@ -8,7 +8,7 @@ use super::surface::{SpatialSectionPoint, SpatialSurfaceRows};
 use crate::rod::center::center_weights;
 use crate::rod::loads::LineForce;
 use crate::rod::supports::Supports;
-use crate::structure::{Flexible, Held, Load, Structure, Tangents, Weight};
+use crate::structure::{Flexible, Held, InnerPower, Load, Structure, Tangents, Weight};
 
 /// A rod in space as a body in a flow. Its material points are named by their places where the rod is straight.
 #[derive(Debug)]
@@ -92,6 +92,15 @@ impl Structure for SpatialRodBody {
 
     fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64 {
         self.rod.elastic_energy(coordinates, time)
+    }
+
+    fn inner_power(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+        time: f64,
+    ) -> InnerPower {
+        self.rod.inner_power(coordinates, velocities, time)
     }
 }
 

@@ -38,7 +38,7 @@ fn unaccounted(rod: &PlanarRod, step: f64) -> f64 {
     let system = DrySystem::new(rod, vec![&drag, &pull], |_| at_base(rod, Support::Hinged));
     let mut motion = Motion::new(&system, at_rest(along_x(rod)), step);
     let powers = |level: &Level| {
-        let power = rod.power(&level.coordinates, &level.velocities, level.time);
+        let power = rod.inner_power(&level.coordinates, &level.velocities, level.time);
         [power.activation, system.power_of_loads(level) - power.dissipation]
     };
     let (mut active, mut other) = (0.0, 0.0);

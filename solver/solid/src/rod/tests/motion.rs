@@ -134,7 +134,7 @@ fn loss(rod: &PlanarRod, step: f64) -> [f64; 2] {
     let mut dissipated = 0.0;
     while motion.now().time < 1.0 - 0.5 * step {
         let power = |level: &Level| {
-            rod.power(&level.coordinates, &level.velocities, level.time).dissipation
+            rod.inner_power(&level.coordinates, &level.velocities, level.time).dissipation
         };
         let before = power(motion.now());
         motion.advance().expect("the step converges");
@@ -170,7 +170,7 @@ fn energy_balances_in_each_step_but_for_the_loss_of_the_scheme() {
             continue;
         }
         let Level { coordinates, velocities, time } = motion.now();
-        let dissipated = step * rod.power(coordinates, velocities, *time).dissipation;
+        let dissipated = step * rod.inner_power(coordinates, velocities, *time).dissipation;
         let after = motion.energy_of_scheme(&along_x(&rod));
         let missing = before - after - dissipated - motion.loss_of_scheme();
         assert!(missing.abs() < 1e-8 * scale, "step {i}: {:.1e} is missing", missing / scale);

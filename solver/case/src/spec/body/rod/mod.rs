@@ -33,7 +33,7 @@ pub struct RodSpec {
     pub damping: f64,
     /// Number of elements along the body.
     #[serde(default = "elements")]
-    #[cfg_attr(test, schemars(range(min = 2)))]
+    #[cfg_attr(test, schemars(range(min = 2, max = 1000)))]
     pub elements: usize,
     /// Shape without loads; straight if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -113,6 +113,23 @@ fn elements() -> usize {
 }
 
 impl RestShape {
+    /// The curvature at a distance from the head (m): 1/m.
+    #[must_use]
+    pub fn at(&self, along: f64) -> f64 {
+        let rows = match self {
+            Self::Curvature(curvature) => return *curvature,
+            Self::Table(rows) => rows,
+        };
+        let next = rows.partition_point(|row| row[0] <= along);
+        match (next.checked_sub(1).and_then(|last| rows.get(last)), rows.get(next)) {
+            (Some([from, start]), Some([to, end])) => {
+                start + (end - start) * (along - from) / (to - from)
+            }
+            (Some([_, value]), None) | (None, Some([_, value])) => *value,
+            (None, None) => 0.0,
+        }
+    }
+
     /// Largest |curvature| (1/m).
     #[must_use]
     pub fn sharpest(&self) -> f64 {
