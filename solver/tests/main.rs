@@ -1,4 +1,5 @@
 //! The program, from its command line.
 
 mod command_line;
+mod reduced;
 mod refusals;

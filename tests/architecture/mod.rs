@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 30] = [
+const ROOMS: [(&str, &[&str]); 31] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -72,11 +72,15 @@ const ROOMS: [(&str, &[&str]); 30] = [
             "timing",
         ],
     ),
+    ("reduced", &["case", "run"]),
     ("observer", &["body", "case", "flow", "run", "step", "timing"]),
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
     ("runner", &["case", "observer", "run", "step", "validation"]),
-    ("cli", &["case", "observer", "run", "runner", "step", "sweep", "timing", "validation"]),
+    (
+        "cli",
+        &["case", "observer", "reduced", "run", "runner", "step", "sweep", "timing", "validation"],
+    ),
     ("main", &["cli"]),
 ];
 

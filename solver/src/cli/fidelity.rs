@@ -8,6 +8,8 @@ pub enum Fidelity {
     /// The full solver: flow on a mesh that follows the bodies
     #[default]
     Ale,
+    /// A tree of rigid links without a flow, under loads by laws
+    Reduced,
 }
 
 impl Fidelity {
@@ -15,6 +17,7 @@ impl Fidelity {
     pub fn name(self) -> &'static str {
         match self {
             Self::Ale => "ale",
+            Self::Reduced => "reduced",
         }
     }
 }

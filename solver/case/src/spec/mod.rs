@@ -13,6 +13,7 @@ pub(crate) mod mesh_file;
 #[cfg(test)]
 mod number;
 pub(crate) mod output;
+pub(crate) mod reduced;
 pub(crate) mod time;
 mod time_function;
 pub(crate) mod units;
