@@ -1,5 +1,6 @@
 //! The program, from its command line.
 
 mod command_line;
+mod reduced;
 mod refusals;
 mod soft;

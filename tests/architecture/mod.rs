@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 33] = [
+const ROOMS: [(&str, &[&str]); 34] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -75,13 +75,25 @@ const ROOMS: [(&str, &[&str]); 33] = [
         ],
     ),
     ("gradient", &["algebra", "body", "case", "coupling", "motion", "run", "step"]),
+    ("reduced", &["case", "run"]),
     ("observer", &["body", "case", "flow", "run", "step", "timing"]),
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
     ("runner", &["case", "observer", "run", "step", "validation"]),
     (
         "cli",
-        &["case", "gradient", "observer", "run", "runner", "step", "sweep", "timing", "validation"],
+        &[
+            "case",
+            "gradient",
+            "observer",
+            "reduced",
+            "run",
+            "runner",
+            "step",
+            "sweep",
+            "timing",
+            "validation",
+        ],
     ),
     ("main", &["cli"]),
 ];

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use alewife_core::case::schema;
+use alewife_core::case::{LoadLaw, schema};
 
 use super::{all_sources, case_names, root, terms, text};
 
@@ -112,6 +112,9 @@ fn every_key_that_the_page_of_case_files_names_exists() {
     assert!(known.len() > 150, "{known:?}");
     known.extend(BESIDE_KEYS.map(str::to_owned));
     known.extend(case_names());
+    for law in [LoadLaw::Links, LoadLaw::Resistive, LoadLaw::Ellipsoid] {
+        known.extend(law.coefficients().iter().map(|one| one.name.to_owned()));
+    }
     let (before, rest) = page.split_once("<!-- quantities: begin -->").expect("it has quantities");
     let (quantities, after) = rest.split_once("<!-- quantities: end -->").expect("they end");
     for term in terms(quantities) {

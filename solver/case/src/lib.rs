@@ -24,7 +24,7 @@ pub use read::library;
 pub use read::problem_keys::collect_keys;
 pub use read::recording::Recording;
 pub use read::schema::schema;
-pub use rules::{at_rest, check};
+pub use rules::{at_rest, check, check_reduced};
 pub use spec::body::axial_vector::AxialVector;
 pub use spec::body::command::Command;
 pub use spec::body::gait::{
@@ -63,6 +63,7 @@ pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use spec::mesh_file::MeshFile;
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
+pub use spec::reduced::{AddedMassSpec, Coefficient, LoadLaw, ReducedSpec};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };

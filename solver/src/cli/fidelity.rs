@@ -10,6 +10,8 @@ pub enum Fidelity {
     Ale,
     /// An elastic body without a flow, under loads facet by facet
     Soft,
+    /// A tree of rigid links without a flow, under loads by laws
+    Reduced,
 }
 
 impl Fidelity {
@@ -18,6 +20,7 @@ impl Fidelity {
         match self {
             Self::Ale => "ale",
             Self::Soft => "soft",
+            Self::Reduced => "reduced",
         }
     }
 }

@@ -19,11 +19,13 @@ mod general;
 mod given;
 mod near;
 mod placement;
+mod reduced;
 mod references;
 mod space;
 mod time;
 
 pub use self::drive::at_rest;
+pub use self::reduced::check_reduced;
 
 use self::body::{bodies, joints, strokes, swimmers};
 use self::findings::Findings;
@@ -55,6 +57,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     mesh::check(&mut findings);
     time::check(&mut findings);
     references::check(&mut findings);
+    reduced::check(&mut findings);
     extremes::check(&mut findings, file);
     if findings.has_no_error() {
         cells::check(&mut findings);

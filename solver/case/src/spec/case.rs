@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, Fluid, Geometry, InitialFlow,
-    Joint, MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe, Reference, Scales,
-    Statistics, SwimmerSpec, TimeSettings, Units, Variant,
+    Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, FlowModel, Fluid, Geometry,
+    InitialFlow, Joint, LoadLaw, MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe,
+    ReducedSpec, Reference, Scales, Statistics, SwimmerSpec, TimeSettings, Units, Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -59,6 +59,9 @@ pub struct Case {
     /// Forces that keep bodies apart from each other and from walls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactSpec>,
+    /// The reduced model, for runs with `--fidelity reduced`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reduced: Option<ReducedSpec>,
     /// Cell sizes.
     pub mesh: MeshSettings,
     /// Steady solution or time steps.
@@ -100,6 +103,17 @@ impl Case {
     #[must_use]
     pub fn gist(&self) -> String {
         first_sentence(&self.description)
+    }
+
+    /// The reduced model that is asked for, or the one that fits the fluid and the dimension.
+    #[must_use]
+    pub fn reduced_model(&self) -> ReducedSpec {
+        let loads = match (self.fluid.model, self.geometry) {
+            (FlowModel::Stokes, _) => LoadLaw::Resistive,
+            (_, Geometry::Spatial) => LoadLaw::Ellipsoid,
+            _ => LoadLaw::Links,
+        };
+        self.reduced.clone().unwrap_or_else(|| ReducedSpec::new(loads))
     }
 
     /// The viscosity (Pa s) that numbers of the case are made of: that at rest, or of powers of the rate of shear that at

@@ -15,6 +15,7 @@ pub(crate) mod mesh_file;
 #[cfg(test)]
 pub mod number;
 pub(crate) mod output;
+pub(crate) mod reduced;
 pub(crate) mod time;
 mod time_function;
 pub(crate) mod units;

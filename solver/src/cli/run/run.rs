@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 
+use super::reduced;
 use super::results::{
     print_cell_numbers, print_comparisons, print_last_values, print_run_warnings, print_step_errors,
 };
@@ -109,6 +110,28 @@ impl Options {
         }
     }
 
+    /// The same by the reduced model.
+    fn reduced(&self) -> reduced::Request<'_> {
+        let given = [
+            ("resume", self.resume.is_some()),
+            ("replay", self.replay.is_some()),
+            ("continue", self.continues),
+            ("max-walltime", self.max_walltime.is_some()),
+            ("live", self.live.is_some()),
+        ];
+        reduced::Request {
+            case: &self.case,
+            settings: &self.settings.set,
+            out: self.out.as_deref(),
+            overwrite: self.overwrite,
+            foreign: given
+                .iter()
+                .filter(|(_, is_given)| *is_given)
+                .map(|(name, _)| *name)
+                .collect(),
+        }
+    }
+
     /// What to type to continue it.
     fn command(&self) -> String {
         let mut words = vec!["run".to_owned(), self.case.clone()];
@@ -141,6 +164,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     match options.fidelity {
         Fidelity::Ale => run_flow(options),
         Fidelity::Soft => run_soft(options),
+        Fidelity::Reduced => reduced::run(&options.reduced()),
     }
 }
 

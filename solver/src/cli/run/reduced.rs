@@ -1,0 +1,111 @@
+//! `run --fidelity reduced`: a case by laws of loads, its series and how it ended.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use crate::case::{Case, CaseFile, Severity, check, check_reduced, significant};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::read::print_warnings;
+use crate::cli::style::say;
+use crate::observer::write_atomic;
+use crate::reduced::{ReducedError, simulate};
+use crate::run::Series;
+
+/// What a run by the reduced model is asked for.
+pub struct Request<'a> {
+    pub case: &'a str,
+    pub settings: &'a [String],
+    pub out: Option<&'a Path>,
+    pub overwrite: bool,
+    /// Options that only the full solver has, and that were given.
+    pub foreign: Vec<&'static str>,
+}
+
+/// Runs a case by its reduced model.
+pub fn run(request: &Request<'_>) -> Result<Exit, Failure> {
+    if let Some(option) = request.foreign.first() {
+        let message = format!("--{option} is for the full solver; leave it out, or --fidelity ale");
+        return Err(Failure::new(Exit::Usage, message));
+    }
+    let file = Case::read(request.case, request.settings)?;
+    let found = check(&file);
+    if found.iter().any(|one| one.severity == Severity::Error) {
+        return Err(Failure::wrong(&found));
+    }
+    let unknown = check_reduced(&file);
+    if unknown.iter().any(|one| one.severity == Severity::Error) {
+        return Err(Failure::wrong(&unknown));
+    }
+    print_warnings(&found);
+    let out = directory(request, &file)?;
+    let begun = Instant::now();
+    let series = simulate(&file.model).map_err(|error| {
+        let exit = match error {
+            ReducedError::Unknown(_) => Exit::BadCase,
+            ReducedError::Tree(_) => Exit::Diverged,
+        };
+        Failure::new(exit, error.to_string())
+    })?;
+    let seconds = begun.elapsed().as_secs_f64();
+    write(&out, &file, &series)
+        .map_err(|error| Failure::new(Exit::InputOutput, format!("{}: {error}", out.display())))?;
+    report(&file, &series);
+    say(&format!(
+        "reduced model: no wakes, no walls, not compared with references; {} steps, {seconds:.3} s on the clock; \
+         written to {}",
+        series.times.len().saturating_sub(1),
+        out.display()
+    ));
+    Ok(Exit::Done)
+}
+
+/// Where the run goes: not over one of the full solver, nor over another unless that is asked for.
+fn directory(request: &Request<'_>, file: &CaseFile) -> Result<PathBuf, Failure> {
+    let default = || Path::new("runs").join(file.full_name().replace('/', "-") + "-reduced");
+    let out = request.out.map_or_else(default, Path::to_path_buf);
+    let refuse = |what: &str| Err(Failure::new(Exit::Usage, format!("{} {what}", out.display())));
+    if out.join("status.json").exists() || out.join("checkpoints").exists() {
+        return refuse("holds a run of the full solver; choose another directory with --out");
+    }
+    if out.join("series.csv").exists() && !request.overwrite {
+        return refuse("holds a run; --overwrite it, or choose another directory with --out");
+    }
+    Ok(out)
+}
+
+fn write(out: &Path, file: &CaseFile, series: &Series) -> std::io::Result<()> {
+    std::fs::create_dir_all(out)?;
+    let text = file.case().to_toml().map_err(std::io::Error::other)?;
+    write_atomic(&out.join("case.toml"), text.as_bytes())?;
+    let mut text = String::from("time");
+    for name in &series.names {
+        text.push(',');
+        text.push_str(name);
+    }
+    text.push('\n');
+    for (time, row) in series.times.iter().zip(&series.rows) {
+        // The shortest text that reads back as the same number; writing to a text cannot fail
+        let _ = write!(text, "{time:?}");
+        for value in row {
+            let _ = write!(text, ",{value:?}");
+        }
+        text.push('\n');
+    }
+    write_atomic(&out.join("series.csv"), text.as_bytes())
+}
+
+/// What the swimmers did in the end, or the bodies where there is none.
+fn report(file: &CaseFile, series: &Series) {
+    let Some(last) = series.rows.last() else { return };
+    let model = &file.model;
+    let swimmers: Vec<&str> = model.swimmers.iter().map(|one| one.name.as_str()).collect();
+    let bodies = model.bodies.iter().map(|body| body.name.as_str());
+    let shown: Vec<&str> = if swimmers.is_empty() { bodies.collect() } else { swimmers };
+    for (name, value) in series.names.iter().zip(last) {
+        let is_shown = shown.iter().any(|owner| name.starts_with(&format!("{owner}.")));
+        if is_shown && !value.is_nan() {
+            say(&format!("{name:32}  {}", significant(*value)));
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Quantities of bodies and joints of a reduced model, under the names of a full run.
+
+use alewife_reduced::tree::{Pose, State, Twist, Wrench};
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
+
+use super::build::{Reduced, Told};
+use crate::case::{BodyQuantity, Component, JointQuantity};
+
+/// A quantity.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Value {
+    Scalar(f64),
+    Vector(Vector3<f64>),
+    Quaternion(Quaternion<f64>),
+}
+
+impl Value {
+    pub fn component(self, component: Component) -> f64 {
+        match (self, component) {
+            (Self::Scalar(value), _) => value,
+            (Self::Vector(v), Component::X) => v.x,
+            (Self::Vector(v), Component::Y) => v.y,
+            (Self::Vector(v), _) => v.z,
+            (Self::Quaternion(q), Component::X) => q.i,
+            (Self::Quaternion(q), Component::Y) => q.j,
+            (Self::Quaternion(q), Component::Z) => q.k,
+            (Self::Quaternion(q), _) => q.w,
+        }
+    }
+}
+
+/// A body at one time, about its centre, in axes of the world.
+#[derive(Debug, Clone)]
+pub(super) struct Moving {
+    pub pose: Pose<f64>,
+    pub twist: Twist<f64>,
+    /// Of the fluid.
+    pub load: Wrench<f64>,
+    /// Angle over all turns (rad).
+    pub angle: f64,
+    pub acceleration: Vector3<f64>,
+}
+
+impl Moving {
+    /// Work of its surface on the fluid (W).
+    pub fn power(&self) -> f64 {
+        -self.twist.dot(&self.load)
+    }
+
+    /// A quantity of a body; none of those that only a flow has.
+    pub fn value(&self, quantity: BodyQuantity) -> Option<Value> {
+        let rotation = Rotation3::from_matrix_unchecked(self.pose.rotation);
+        Some(match quantity {
+            BodyQuantity::Position => Value::Vector(self.pose.position),
+            BodyQuantity::Angle => Value::Scalar(self.angle),
+            BodyQuantity::Orientation => {
+                Value::Quaternion(*UnitQuaternion::from_rotation_matrix(&rotation).quaternion())
+            }
+            BodyQuantity::Direction => Value::Vector(rotation * Vector3::x()),
+            BodyQuantity::Velocity => Value::Vector(self.twist.linear),
+            BodyQuantity::AngularVelocity => Value::Vector(self.twist.angular),
+            BodyQuantity::BodyAngularVelocity => {
+                Value::Vector(rotation.inverse() * self.twist.angular)
+            }
+            BodyQuantity::Acceleration => Value::Vector(self.acceleration),
+            BodyQuantity::Force => Value::Vector(self.load.force),
+            BodyQuantity::Torque => Value::Vector(self.load.torque),
+            BodyQuantity::Power => Value::Scalar(self.power()),
+            _ => return None,
+        })
+    }
+}
+
+/// All bodies at a state, with their angles over all turns and their accelerations by the velocities `before`, a
+/// step (s) ago.
+pub(super) fn bodies(
+    reduced: &Reduced,
+    state: &State<f64>,
+    before: &[Moving],
+    step: f64,
+) -> Vec<Moving> {
+    let (poses, twists) = (reduced.tree.poses(state), reduced.tree.twists(state));
+    let wrenches = reduced.tree.fluid_wrenches(state);
+    let moving = |(number, part): (usize, &super::build::Part)| {
+        let (link, twist, load) = (&poses[part.link], &twists[part.link], &wrenches[part.link]);
+        let arm = link.rotation * part.inside.position;
+        let pose = link.then(&part.inside);
+        let linear = twist.linear + twist.angular.cross(&arm);
+        let force = link.rotation * load.force;
+        let torque = link.rotation * load.torque - arm.cross(&force);
+        let heading = pose.rotation[(1, 0)].atan2(pose.rotation[(0, 0)]);
+        let last = before.get(number);
+        let turns = |last: &Moving| ((last.angle - heading) / std::f64::consts::TAU).round();
+        Moving {
+            angle: heading + std::f64::consts::TAU * last.map_or(0.0, turns),
+            acceleration: last
+                .map_or_else(Vector3::zeros, |last| (linear - last.twist.linear) / step),
+            pose,
+            twist: Twist { linear, angular: twist.angular },
+            load: Wrench { force, torque },
+        }
+    };
+    reduced.parts.iter().enumerate().map(moving).collect()
+}
+
+/// A quantity of the joint above a link.
+pub(super) fn joint(
+    reduced: &Reduced,
+    state: &State<f64>,
+    link: usize,
+    quantity: JointQuantity,
+) -> f64 {
+    let Some(velocity) = reduced.tree.velocity_of(link) else { return f64::NAN };
+    let (place, rate) = (state.coordinates[velocity], state.velocities[velocity]);
+    let joint = &reduced.tree.links()[link].joint;
+    let effort = || {
+        let own = -joint.stiffness * (place - joint.rest) - joint.damping * rate;
+        match &reduced.told[link] {
+            Told::Given(_) => state.efforts[velocity],
+            Told::Nothing => own,
+            Told::Effort(stroke) => own + stroke.at(state.time)[0],
+        }
+    };
+    match quantity {
+        JointQuantity::Angle | JointQuantity::Length => place,
+        JointQuantity::Rate => rate,
+        JointQuantity::Torque | JointQuantity::Force => effort(),
+        JointQuantity::Power => effort() * rate,
+    }
+}

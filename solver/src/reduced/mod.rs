@@ -1,0 +1,11 @@
+//! The reduced model of a case: its bodies and joints as a tree of links, its motion, its quantities.
+
+mod build;
+mod error;
+mod inertia;
+mod measure;
+mod simulate;
+mod swimmer;
+
+pub use error::ReducedError;
+pub use simulate::simulate;

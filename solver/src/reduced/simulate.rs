@@ -1,0 +1,104 @@
+//! The motion of a reduced model of a case, as the series of its quantities.
+
+use alewife_reduced::tree::{Drift, Scheme, State, Stepper};
+
+use super::ReducedError;
+use super::build::Reduced;
+use super::measure::{Moving, Value, bodies, joint};
+use super::swimmer::Swimming;
+use crate::case::{Column, Model, Source, TimeSettings, columns};
+use crate::run::Series;
+
+/// What moves the tree: steps with inertia, or the balance of forces without.
+enum Mover {
+    Steps(Box<Stepper<f64>>),
+    Drift(Box<Drift<f64>>),
+}
+
+/// Rows of all quantities that need no flow.
+struct Rows {
+    columns: Vec<Column>,
+    /// Links below joints, in the order of the bodies that are their children.
+    below: Vec<usize>,
+    swimmers: Vec<Swimming>,
+    before: Vec<Moving>,
+    series: Series,
+}
+
+impl Rows {
+    fn new(model: &Model, reduced: &Reduced) -> Self {
+        let joined = (0..model.bodies.len()).filter(|body| model.joint_above(*body).is_some());
+        Self {
+            below: joined.map(|body| reduced.parts[body].link).collect(),
+            columns: columns(model),
+            swimmers: model.swimmers.iter().map(Swimming::new).collect(),
+            before: Vec::new(),
+            series: Series::default(),
+        }
+    }
+
+    fn add(&mut self, reduced: &Reduced, state: &State<f64>, step: f64) {
+        let now = bodies(reduced, state, &self.before, step);
+        for swimmer in &mut self.swimmers {
+            swimmer.observe(reduced, &now, state.time);
+        }
+        let value = |column: &Column| {
+            let value = match column.source {
+                Source::Body(body, quantity) => now[body].value(quantity),
+                Source::Joint(nth, quantity) => {
+                    Some(Value::Scalar(joint(reduced, state, self.below[nth], quantity)))
+                }
+                Source::Swimmer(nth, quantity) => self.swimmers[nth].value(quantity),
+                Source::Probe(..) | Source::Flow(_) => None,
+            };
+            value.map(|value| value.component(column.component))
+        };
+        if self.series.names.is_empty() {
+            self.columns.retain(|column| value(column).is_some());
+            self.series.names = self.columns.iter().map(|column| column.name.clone()).collect();
+        }
+        self.series.times.push(state.time);
+        self.series
+            .rows
+            .push(self.columns.iter().map(|column| value(column).unwrap_or(f64::NAN)).collect());
+        self.before = now;
+    }
+}
+
+/// Moves a case by its reduced model, over the steps of `[time.unsteady]`, of second order, without inertia of
+/// fourth. The series has the names of a full run, less those of quantities that only a flow has; without inertia
+/// loads and velocities of a row are those at its time, with inertia the efforts of given joints are those of the
+/// middle of the step before.
+///
+/// # Errors
+/// When the case has what a reduced model does not know, or a step fails.
+pub fn simulate(model: &Model) -> Result<Series, ReducedError> {
+    let TimeSettings::Unsteady(time) = &model.case.time else {
+        return Err(ReducedError::Unknown("a steady flow".to_owned()));
+    };
+    let reduced = Reduced::new(model)?;
+    let mut state = reduced.start.clone();
+    let command = |time: f64, link: usize| reduced.command(time, link);
+    let mut mover = if reduced.has_inertia {
+        Mover::Steps(Box::new(Stepper::new(&reduced.tree, Scheme::Midpoint)))
+    } else {
+        let mut drift = Drift::new(reduced.tree.clone())?;
+        drift.twist(&mut state, 0.0, &command)?;
+        Mover::Drift(Box::new(drift))
+    };
+    let mut rows = Rows::new(model, &reduced);
+    rows.add(&reduced, &state, time.step);
+    let n_steps = time.n_steps();
+    for number in 1..=n_steps {
+        // The last one may be shorter
+        let end = if number == n_steps { time.end } else { time.step * number as f64 };
+        let step = end - state.time;
+        match &mut mover {
+            Mover::Steps(stepper) => stepper.step(&reduced.tree, &mut state, step, &command)?,
+            Mover::Drift(drift) => drift.step(&mut state, step, &command)?,
+        }
+        state.time = end;
+        rows.add(&reduced, &state, step);
+    }
+    Ok(rows.series)
+}
