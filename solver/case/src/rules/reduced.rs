@@ -104,6 +104,8 @@ fn whole_case(findings: &mut Findings<'_>) {
         ("contact", case.contact.is_some(), "contact"),
         ("flow", case.flow.is_some(), "a mean flow"),
         ("field", case.field.is_some(), "a field"),
+        ("fluid.force", !case.fluid.force.is_empty(), "a force on the fluid"),
+        ("initial", case.initial.is_some(), "a flow at the start"),
         ("probe", !case.probe.is_empty(), "a probe: there is no flow to be measured"),
         ("time.steady", matches!(case.time, TimeSettings::Steady(_)), "a steady flow"),
     ];
@@ -127,6 +129,9 @@ fn sides(findings: &mut Findings<'_>) {
             | BoundaryCondition::Periodic(_) => false,
             BoundaryCondition::Velocity { .. }
             | BoundaryCondition::Parabolic { .. }
+            | BoundaryCondition::Developed { .. }
+            | BoundaryCondition::Pressure { .. }
+            | BoundaryCondition::Traction { .. }
             | BoundaryCondition::Shear { .. }
             | BoundaryCondition::WavingSheet { .. } => true,
         };
@@ -152,6 +157,12 @@ fn rigid_alone(findings: &mut Findings<'_>, key: &str, body: &Body) {
         ("torque", is_loaded(&body.torque.0), "torques from outside"),
         ("locked", !body.locked.is_empty(), "locked motions"),
         ("motion", matches!(body.motion, Motion::Imposed(_)), "imposed motions"),
+        ("motion", matches!(body.motion, Motion::ByAxis(_)), "motions given by axis"),
+        ("mass", body.mass.is_some(), "masses apart from a density"),
+        ("inertia", body.inertia.is_some(), "inertia apart from a density"),
+        ("center_of_mass", is_loaded(&body.center_of_mass), "centres of mass apart from the shape"),
+        ("velocity", is_loaded(&body.velocity), "velocities at the start"),
+        ("angular_velocity", is_loaded(&body.angular_velocity.0), "velocities at the start"),
     ];
     for (name, is_there, what) in present {
         if is_there {
@@ -184,6 +195,13 @@ fn joints(findings: &mut Findings<'_>, spec: &ReducedSpec) {
     for (index, joint) in findings.model().joints.iter().enumerate() {
         let key = format!("joint.{index}.kind");
         let child = &joint.child;
+        if findings.model().hangs_on_laboratory(joint) {
+            findings.error(
+                &format!("joint.{index}.parent"),
+                format!("the reduced model does not know joints to the laboratory: that of \"{child}\" is one"),
+                "motion = \"held\" for the first body, or the full solver: --fidelity ale",
+            );
+        }
         let stroke = match &joint.kind {
             JointKind::Hinge(hinge) => hinge.torque.as_ref(),
             JointKind::Slider(slider) => slider.force.as_ref(),
