@@ -111,7 +111,9 @@ fn what_cannot_be_is_refused() {
     assert!(error.contains("a.msh, line 2: version 3.0"), "{error}");
     fs::copy(directory.path().join("meshes/a.msh"), directory.path().join("meshes/a.med")).unwrap();
     fs::write(directory.path().join("meshes/a.med"), "\u{89}HDF").unwrap();
-    let other = read(directory.path(), &["domain.mesh.file=../meshes/a.med"]).unwrap_err();
+    let path = directory.path().join("meshes/a.med");
+    let setting = format!("domain.mesh.file={}", path.display());
+    let other = read(directory.path(), &[&setting]).unwrap_err();
     assert!(
         other.contains("a file of Salome") && other.contains("alewife-post convert"),
         "{other}"

@@ -4,7 +4,6 @@ mod check;
 mod complete;
 mod exit;
 mod facts;
-mod fidelity;
 mod gradient;
 mod library;
 mod manual;

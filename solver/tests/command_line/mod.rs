@@ -5,7 +5,6 @@ mod commands;
 mod continuing;
 mod costs;
 mod faults;
-mod gradients;
 mod kills;
 mod live;
 mod plotting;
@@ -39,7 +38,7 @@ density = 2.0
 motion = 'free'
 ";
 
-fn alewife(directory: &Path, arguments: &[&str]) -> Output {
+pub fn alewife(directory: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_alewife"))
         .args(arguments)
         .current_dir(directory)
@@ -48,7 +47,7 @@ fn alewife(directory: &Path, arguments: &[&str]) -> Output {
 }
 
 #[track_caller]
-fn done(directory: &Path, arguments: &[&str]) -> String {
+pub fn done(directory: &Path, arguments: &[&str]) -> String {
     let output = alewife(directory, arguments);
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{stderr}");

@@ -5,6 +5,7 @@ use spade::{
     Triangulation as _,
 };
 
+use crate::number::whole;
 use crate::{MeshError, Outline, Point};
 
 /// Smallest angle of a triangle that is aimed at (degrees).
@@ -34,12 +35,12 @@ pub fn points_of_outline(outline: &Outline, size: f64) -> Vec<Point<2>> {
     for k in 0..FINE {
         lengths.push(lengths[k] + (at(k + 1) - at(k)).norm());
     }
-    let whole = lengths[FINE];
-    let n = (whole / size).ceil().clamp(3.0, FINE as f64) as usize;
+    let length = lengths[FINE];
+    let n = whole((length / size).ceil()).clamp(3, FINE);
     (0..n)
         .map(|point| {
-            let wanted = whole * point as f64 / n as f64;
-            at(lengths.partition_point(|length| *length < wanted))
+            let wanted = length * point as f64 / n as f64;
+            at(lengths.partition_point(|way| *way < wanted))
         })
         .collect()
 }
@@ -54,7 +55,7 @@ pub fn triangulate_inside(corners: &[Point<2>], size: f64) -> Result<Triangles, 
     for (k, from) in corners.iter().enumerate() {
         let way = corners[(k + 1) % n] - from;
         let pieces = (way.norm() / size).ceil().max(1.0);
-        for piece in 0..pieces as usize {
+        for piece in 0..whole(pieces) {
             boundary.push(from + way * (piece as f64 / pieces));
         }
     }
@@ -84,7 +85,7 @@ pub fn triangulate_inside(corners: &[Point<2>], size: f64) -> Result<Triangles, 
         .exclude_outer_faces(true)
         .with_angle_limit(AngleLimit::from_deg(ANGLE))
         .with_max_allowed_area(0.6 * size * size)
-        .with_max_additional_vertices(most as usize);
+        .with_max_additional_vertices(whole(most));
     let refined = cdt.refine(parameters);
     let outer: std::collections::BTreeSet<usize> =
         refined.excluded_faces.iter().map(|face| face.index()).collect();

@@ -187,7 +187,7 @@ struct Gap {
 
 /// The smallest gaps between bodies, ascending.
 fn gaps<const D: usize>(model: &Model) -> Vec<DerivedNumber> {
-    let mut found = near_pairs(model, &circles::<D>(model)).found;
+    let mut found = near_pairs::<D>(model).found;
     found.sort_by(|one, other| one.ratio.total_cmp(&other.ratio));
     found.truncate(MOST_GAPS);
     let round = if D == 3 { "spheres" } else { "circles" };
@@ -200,14 +200,19 @@ fn gaps<const D: usize>(model: &Model) -> Vec<DerivedNumber> {
     found.into_iter().map(number).collect()
 }
 
-/// The circle around each body that has one, by its index.
-fn circles<const D: usize>(model: &Model) -> Vec<(usize, Ball<D>)> {
+/// The circle around a body.
+struct Circle<const D: usize> {
+    body: usize,
+    ball: Ball<D>,
+}
+
+fn circles<const D: usize>(model: &Model) -> Vec<Circle<D>> {
     let placed = model.bodies.iter().enumerate().filter(|(_, body)| body.center.len() == D);
-    let circle = |body: &Body| Ball {
+    let ball = |body: &Body| Ball {
         center: Point::<D>::from_fn(|axis, _| body.center[axis]),
         radius: body.shape.reach(),
     };
-    placed.map(|(index, body)| (index, circle(body))).collect()
+    placed.map(|(index, body)| Circle { body: index, ball: ball(body) }).collect()
 }
 
 /// What a search for near pairs has found.
@@ -219,13 +224,14 @@ struct NearPairs {
 }
 
 /// All pairs whose gap is up to some ratio, as many as are printed where there are so many.
-fn near_pairs<const D: usize>(model: &Model, circles: &[(usize, Ball<D>)]) -> NearPairs {
+fn near_pairs<const D: usize>(model: &Model) -> NearPairs {
+    let circles = circles::<D>(model);
     let extent = model.case.extent();
     let [min, max] =
         [extent.min, extent.max].map(|corner| Point::<D>::from_fn(|axis, _| corner[axis]));
     let mut grid = BallGrid::<D>::new(min, max, circles.len());
-    for (nth, (_, circle)) in circles.iter().enumerate() {
-        grid.insert(nth, circle);
+    for (nth, circle) in circles.iter().enumerate() {
+        grid.insert(nth, &circle.ball);
     }
     // All gaps up to a ratio are found by circles that are larger by it
     let mut pairs = NearPairs::default();
@@ -233,17 +239,18 @@ fn near_pairs<const D: usize>(model: &Model, circles: &[(usize, Ball<D>)]) -> Ne
     let ratios = (0..34).map(|nth| f64::powi(2.0, nth)).chain([f64::INFINITY]);
     for ratio in ratios {
         pairs.found.clear();
-        for (nth, (index, circle)) in circles.iter().enumerate() {
-            let larger = Ball { radius: (1.0 + ratio) * circle.radius, ..*circle };
+        for (nth, Circle { body, ball }) in circles.iter().enumerate() {
+            let larger = Ball { radius: (1.0 + ratio) * ball.radius, ..*ball };
             let mut near: Vec<usize> = grid.near(&larger).filter(|other| *other > nth).collect();
             near.sort_unstable();
             near.dedup();
             pairs.looked_at += near.len();
-            for (other_index, other) in near.into_iter().map(|other| &circles[other]) {
-                let gap = (other.center - circle.center).norm() - circle.radius - other.radius;
-                let own = gap / circle.radius.min(other.radius);
+            for other in near.into_iter().map(|other| &circles[other]) {
+                let way = (other.ball.center - ball.center).norm();
+                let gap = way - ball.radius - other.ball.radius;
+                let own = gap / ball.radius.min(other.ball.radius);
                 if own <= ratio || ratio.is_infinite() {
-                    pairs.found.push(Gap { bodies: [*index, *other_index], ratio: own });
+                    pairs.found.push(Gap { bodies: [*body, other.body], ratio: own });
                 }
             }
         }
@@ -361,8 +368,7 @@ body = [
     #[test]
     fn of_many_bodies_far_apart_not_all_pairs_are_looked_at() {
         let discs: Vec<[f64; 2]> = (0..9000).map(|n| [0.1 * f64::from(n), 1e-4]).collect();
-        let model = model_of(&discs);
-        let pairs = near_pairs(&model, &circles::<2>(&model));
+        let pairs = near_pairs::<2>(&model_of(&discs));
         assert!(pairs.found.len() >= MOST_GAPS);
         // All pairs are 4500 a body
         assert!(pairs.looked_at < 100 * discs.len(), "{}", pairs.looked_at);

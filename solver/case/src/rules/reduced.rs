@@ -157,7 +157,7 @@ fn rigid_alone(findings: &mut Findings<'_>, key: &str, body: &Body) {
         ("torque", is_loaded(&body.torque.0), "torques from outside"),
         ("locked", !body.locked.is_empty(), "locked motions"),
         ("motion", matches!(body.motion, Motion::Imposed(_)), "imposed motions"),
-        ("motion", matches!(body.motion, Motion::ByAxis(_)), "motions given by axis"),
+        ("motion", !body.driven.is_empty(), "motions given by axis"),
         ("mass", body.mass.is_some(), "masses apart from a density"),
         ("inertia", body.inertia.is_some(), "inertia apart from a density"),
         ("center_of_mass", is_loaded(&body.center_of_mass), "centres of mass apart from the shape"),

@@ -1,5 +1,6 @@
 //! `run`: one case, from where it begins or continues to what comes out.
 
+mod fidelity;
 mod reduced;
 mod results;
 #[expect(clippy::module_inception, reason = "the command itself is what the room is named after")]

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 
+use super::fidelity::Fidelity;
 use super::reduced;
 use super::results::{
     print_cell_numbers, print_comparisons, print_last_values, print_run_warnings, print_step_errors,
@@ -11,7 +12,6 @@ use super::results::{
 use crate::case::soft::SoftFile;
 use crate::case::{CaseFile, TimeSettings, WallTime};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::fidelity::Fidelity;
 use crate::cli::read::{CheckedCase, Settings, print_warnings, read_and_check};
 use crate::cli::style::say;
 use crate::cli::{complete, soft};

@@ -1,17 +1,13 @@
 //! Problems of bodies, of what they are joined by and of how they move.
 
-mod activation;
-mod attached;
-pub(super) mod beside_rod;
 pub(super) mod bodies;
 mod gait;
 pub(super) mod joints;
 mod joints_in_space;
 pub(super) mod motion;
 mod polygon;
-mod rod;
+pub(super) mod rod;
 mod skin;
-mod slender;
 mod solid;
 mod spring;
 pub(super) mod strokes;

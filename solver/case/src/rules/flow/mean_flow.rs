@@ -5,7 +5,7 @@ use crate::model::numbers::significant;
 use crate::model::region::normal_axis;
 use crate::model::speed::load_in_space;
 use crate::rules::Findings;
-use crate::rules::body::beside_rod;
+use crate::rules::body::rod::beside;
 use crate::{
     Body, BoundaryCondition, FlowModel, LoadFrame, Lock, MeanFlowSpec, Motion, SpringSpec,
     TimeSettings,
@@ -110,7 +110,7 @@ fn check_determined(findings: &mut Findings<'_>, axis: usize) {
     let resists = |all: &[f64]| all.get(axis).is_some_and(|value| *value != 0.0);
     let ties = |spring: &SpringSpec| resists(&spring.stiffness) || resists(&spring.damping);
     if holder.is_none() && !model.bodies.iter().filter_map(|body| body.spring.as_ref()).any(ties) {
-        beside_rod::unheld(findings, along);
+        beside::unheld(findings, along);
     }
     let is_pushed = case.fluid.force.get(axis).is_some_and(|force| force.number() != Some(0.0));
     let is_driven = is_pushed || [gradient, force].iter().flatten().any(|value| *value != 0.0);

@@ -3,6 +3,7 @@
 pub(crate) mod by_axis;
 pub(crate) mod inertia;
 mod lock;
+mod of_body;
 
 use std::fmt;
 
@@ -104,7 +105,10 @@ impl<'de> Visitor<'de> for Written {
         match word {
             "held" => Ok(Motion::Held),
             "free" => Ok(Motion::Free),
-            "imposed" => Err(E::custom("`imposed` needs values of its own")),
+            "imposed" => {
+                let what = "`imposed` needs values of its own: write { imposed = ... } instead of \"imposed\"";
+                Err(E::custom(what))
+            }
             _ => Err(E::unknown_variant(word, WORDS)),
         }
     }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{alewife, done};
+use crate::command_line::{alewife, done};
 
 const CASE: &str = r#"
 title = "a ball in a shell"

@@ -1,8 +1,8 @@
 //! Problems of `activation`, and of strokes that move rods: rates that jump, bends that fold, waves of what is not known.
 
-use super::joints::stroke as numbers_of_stroke;
 use super::slender::{Slender, rises_along, too_sharp};
 use crate::rules::Findings;
+use crate::rules::body::joints::stroke as numbers_of_stroke;
 use crate::{Activation, Stroke, TimeSettings};
 
 /// Part of the run that is rounding.

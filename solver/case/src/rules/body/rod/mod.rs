@@ -1,7 +1,11 @@
 //! Problems of `body.rod`, `attached` and `activation`: rods of no body, that fold, or that are held nowhere.
 
-use super::slender::{Slender, rises_along, too_sharp};
-use super::{activation, attached, beside_rod};
+mod activation;
+mod attached;
+pub(in crate::rules) mod beside;
+mod slender;
+
+use self::slender::{Slender, rises_along, too_sharp};
 use crate::rules::Findings;
 use crate::{AlongBody, Body, Hold, RestShape, RodSpec};
 
@@ -26,7 +30,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
         length: profile.length(),
         half_width: profile.stations().iter().map(|at| at.half_width).fold(0.0, f64::max),
     };
-    beside_rod::check(findings, key, body);
+    beside::check(findings, key, body);
     stiffness(findings, &format!("{key}.rod"), rod, body_of);
     rest(findings, &format!("{key}.rod.rest"), rod, body_of);
     if let Some(attached) = &body.attached {
