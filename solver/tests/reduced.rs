@@ -60,7 +60,7 @@ fn an_eel_has_the_names_of_a_full_run_and_obeys_newton() {
     let n = series.times.len();
     let from = n - 101;
     let impulse: f64 = (from..n - 1).map(|k| 0.005 * (force[k] + force[k + 1])).sum();
-    let shift: f64 = (0..6).map(|k| mass(k)).sum::<f64>() * (velocity[n - 1] - velocity[from]);
+    let shift: f64 = (0..6).map(mass).sum::<f64>() * (velocity[n - 1] - velocity[from]);
     let size: f64 = (from..n - 1).map(|k| 0.01 * force[k].abs()).sum();
     assert!((impulse - shift).abs() < 0.02 * size, "{impulse} {shift} {size}");
     let given: f64 = (from + 1..n)

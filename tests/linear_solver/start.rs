@@ -54,6 +54,10 @@ fn assert_solved(in_space: bool, more_than: usize) {
         .par_iter()
         .filter_map(|name| {
             let model = Case::read(name, &[]).expect("shipped cases are valid").model;
+            // The rates of rods follow from a step, they are free in a steady flow
+            if model.bodies.iter().any(|body| body.rod.is_some()) {
+                return None;
+            }
             let (residual, refinements) =
                 if in_space { accuracy::<3>(&model) } else { accuracy::<2>(&model) };
             let is_right = in_space || (residual <= RESIDUAL && refinements <= 1);

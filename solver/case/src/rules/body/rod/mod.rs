@@ -6,6 +6,8 @@ pub(in crate::rules) mod beside;
 mod slender;
 
 use self::slender::{Slender, rises_along, too_sharp};
+use alewife_mesh::whole;
+
 use crate::rules::Findings;
 use crate::{AlongBody, Body, Hold, RestShape, RodSpec};
 
@@ -113,7 +115,7 @@ fn crossing(rest: &RestShape, body: Slender) -> Option<[f64; 2]> {
         places.push(place);
     }
     // Nearer ones are neighbours
-    let apart = (4.0 * body.half_width / step).ceil() as usize;
+    let apart = whole((4.0 * body.half_width / step).ceil());
     let meets = |one: &[f64; 2], other: &[f64; 2]| {
         (one[0] - other[0]).hypot(one[1] - other[1]) < 2.0 * body.half_width
     };
