@@ -54,8 +54,8 @@ fn purcell() -> Connection {
     let mut first = [[[0.0; 3]; 6]; 6];
     for line in NODES.lines().skip(1) {
         let row: Vec<f64> = line.split(',').map(|text| text.parse().expect("a number")).collect();
-        let at = |k: usize| (0..6).find(|n| (row[k] - f64::from(*n)).abs() < 0.5);
-        let at = [0, 1].map(|k| at(k).expect("a node") as usize);
+        let node = |k: usize| (0..6_usize).find(|n| (row[k] - *n as f64).abs() < 0.5);
+        let at = [0, 1].map(|k| node(k).expect("a node"));
         first[at[0]][at[1]] = [row[2], row[3], row[4]];
         first[5 - at[0]][5 - at[1]] = [-row[2], row[3], row[4]];
     }
