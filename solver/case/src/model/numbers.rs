@@ -215,11 +215,10 @@ fn circles<const D: usize>(model: &Model) -> Vec<Circle<D>> {
     placed.map(|(index, body)| Circle { body: index, ball: ball(body) }).collect()
 }
 
-/// What a search for near pairs has found.
+/// What a search for near pairs has found, and how many pairs it looked at.
 #[derive(Default)]
 struct NearPairs {
     found: Vec<Gap>,
-    /// Pairs that were looked at.
     looked_at: usize,
 }
 
@@ -233,9 +232,8 @@ fn near_pairs<const D: usize>(model: &Model) -> NearPairs {
     for (nth, circle) in circles.iter().enumerate() {
         grid.insert(nth, &circle.ball);
     }
-    // All gaps up to a ratio are found by circles that are larger by it
     let mut pairs = NearPairs::default();
-    // The last of these reaches across any domain
+    // Larger circles find all gaps up to a ratio; the last ones reach across any domain
     let ratios = (0..34).map(|nth| f64::powi(2.0, nth)).chain([f64::INFINITY]);
     for ratio in ratios {
         pairs.found.clear();
