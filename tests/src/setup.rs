@@ -51,6 +51,7 @@ pub fn fluid_only<const D: usize>(
         has_inertia: density > 0.0,
         has_convection: density > 0.0,
         sides,
+        reports_sides: false,
         bodies: bodies.collect(),
         groups: Vec::new(),
         frame: None,

@@ -17,7 +17,7 @@ pub use model::{Model, SwimmerModel};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
     ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, columns,
-    known_quantities,
+    known_quantities, reports_sides,
 };
 pub use read::CaseFile;
 pub use read::library;

@@ -162,6 +162,12 @@ pub fn known_quantities(model: &Model) -> Vec<String> {
     columns(model).into_iter().map(|column| column.name).collect()
 }
 
+/// Whether any side of a case has quantities.
+#[must_use]
+pub fn reports_sides(model: &Model) -> bool {
+    !reported_sides(model).is_empty()
+}
+
 /// Whether a quantity would be one of a side, if the sides were reported.
 pub(crate) fn is_of_a_side(model: &Model, name: &str) -> bool {
     let Some((owner, quantity)) = name.split_once('.') else { return false };

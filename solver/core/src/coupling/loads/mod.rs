@@ -48,7 +48,7 @@ pub struct SurfaceLoads {
     pub sides_force: Vector3<f64>,
     /// Force of sides and bodies on the fluid (N), but for that of a mean flow.
     pub boundary_force: Vector3<f64>,
-    /// Of the fluid on each side, by its boundary, the torque about the origin; empty at a start that solves nothing.
+    /// Of the fluid on each side, by its boundary, the torque about the origin; empty where they are not asked for.
     pub sides: Vec<Wrench>,
 }
 

@@ -45,6 +45,8 @@ pub struct Problem<const D: usize> {
     pub has_convection: bool,
     /// What holds on each boundary of the mesh; `None` for bodies.
     pub sides: Vec<Option<Side<D>>>,
+    /// Whether their loads are asked for.
+    pub reports_sides: bool,
     /// The bodies, in the order of their boundaries.
     pub bodies: Vec<RigidBody>,
     /// Bodies that are reported as one.

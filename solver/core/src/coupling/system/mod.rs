@@ -257,8 +257,10 @@ impl<const D: usize> FluidSystem<D> {
             residual,
         };
         let mut loads = surface_loads(problem, poses, &flow);
-        let stress = self.surface_stress(problem, mesh, solution);
-        loads.sides = side_loads(problem, &flow, &stress, time);
+        if problem.reports_sides {
+            let stress = self.surface_stress(problem, mesh, solution);
+            loads.sides = side_loads(problem, &flow, &stress, time);
+        }
         if self.cell.is_some() {
             for (body, (loads, twist)) in loads.bodies.iter_mut().zip(&solution.twists).enumerate()
             {

@@ -32,7 +32,7 @@ use super::RunError;
 use crate::body::{Orientation, Pose};
 use crate::case::{
     Case, ContactSpec, DrivenLaw, FlowModel, Geometry, MeanFlowSpec, Model, ShearLaw, Stroke,
-    SwimmerModel, TimeSettings, ViscositySpec,
+    SwimmerModel, TimeSettings, ViscositySpec, reports_sides,
 };
 use crate::contact::{ContactError, Dissipation, Law, LawKind};
 use crate::coupling::{
@@ -114,6 +114,7 @@ pub fn build_problem<const D: usize>(
         has_inertia,
         has_convection: case.fluid.model == FlowModel::NavierStokes,
         sides,
+        reports_sides: reports_sides(model),
         bodies,
         groups: model.swimmers.iter().map(|swimmer| group(case, swimmer)).collect(),
         frame,

@@ -71,10 +71,9 @@ impl<const D: usize> Measure<D> {
     ) -> Result<Self, RunError> {
         let case = &model.case;
         let columns = columns(model);
-        let has_sides = columns.iter().any(|column| matches!(column.source, Source::Side(..)));
         let places = ProbePlaces::of(model);
         Ok(Self {
-            sides: side_names(model, has_sides),
+            sides: side_names(model),
             names: columns.iter().map(|column| column.name.clone()).collect(),
             columns,
             probes: Probes::in_fluid(case, &places, mesh, images)?,

@@ -4,7 +4,7 @@ use alewife_mesh::BoundaryId;
 
 use super::value::Value;
 use crate::body::Wrench;
-use crate::case::{Model, SideQuantity};
+use crate::case::{Model, SideQuantity, reports_sides};
 use crate::coupling::{SideFlow, SurfaceLoads};
 use crate::run::simulation::Simulation;
 
@@ -49,8 +49,8 @@ pub(super) fn measure_sides<const D: usize>(
 }
 
 /// Names of the sides of a case, if any of them is measured.
-pub(super) fn side_names(model: &Model, are_measured: bool) -> Vec<String> {
-    if !are_measured {
+pub(super) fn side_names(model: &Model) -> Vec<String> {
+    if !reports_sides(model) {
         return Vec::new();
     }
     model.case.sides().into_iter().map(str::to_owned).collect()
