@@ -38,33 +38,9 @@ pub fn triangles(n: [usize; 2], map: impl Fn(f64, f64) -> Point<2>) -> SolidMesh
 
 /// A grid of tetrahedra over the unit cube, mapped.
 pub fn tetrahedra(n: [usize; 3], map: impl Fn(Point<3>) -> Point<3>) -> SolidMesh<3> {
-    let node = |at: [usize; 3]| (at[0] * (n[1] + 1) + at[1]) * (n[2] + 1) + at[2];
-    let mut nodes = Vec::new();
-    for i in 0..=n[0] {
-        for j in 0..=n[1] {
-            for k in 0..=n[2] {
-                let part = |i: usize, n: usize| i as f64 / n as f64;
-                nodes.push(map(Point::from([part(i, n[0]), part(j, n[1]), part(k, n[2])])));
-            }
-        }
-    }
-    let mut cells = Vec::new();
-    for i in 0..n[0] {
-        for j in 0..n[1] {
-            for k in 0..n[2] {
-                for axes in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
-                    let mut at = [i, j, k];
-                    let mut cell = vec![node(at)];
-                    for axis in axes {
-                        at[axis] += 1;
-                        cell.push(node(at));
-                    }
-                    cells.push(cell);
-                }
-            }
-        }
-    }
-    SolidMesh::of_cells(nodes, &cells).expect("all cells have a volume")
+    let place =
+        |at: [usize; 3]| map(Point::<3>::from_fn(|axis, _| at[axis] as f64 / n[axis] as f64));
+    SolidMesh::<3>::of_grid(n, place).expect("all cells have a volume")
 }
 
 /// Mean of the vertices of each cell.

@@ -6,7 +6,7 @@ use alewife_mesh::{
     Outline, PlacedShape, Point, Triangles, points_of_outline, read_undivided_msh,
     triangulate_inside,
 };
-use alewife_solid::solid::{Order, SolidMesh};
+use alewife_solid::solid::{Order, SolidError, SolidMesh};
 
 use alewife_case::Diagnostic;
 use alewife_case::soft::SoftFile;
@@ -31,7 +31,9 @@ impl SolidOf<2> for Bodies {
             return given::<2>(file, solid);
         }
         if let Some(grid) = &solid.grid {
-            return cells(file, "solid.0.grid", squares(grid), solid.order);
+            let mesh =
+                SolidMesh::<2>::of_grid([grid.cells[0], grid.cells[1]], |at| place(grid, at));
+            return meshed(file, "solid.0.grid", mesh, solid.order);
         }
         let (key, triangles) = match &solid.outline {
             Some(outline) => ("solid.0.outline.points", inside(file, solid, outline)?),
@@ -48,7 +50,9 @@ impl SolidOf<3> for Bodies {
             return given::<3>(file, solid);
         }
         if let Some(grid) = &solid.grid {
-            return cells(file, "solid.0.grid", cubes(grid), solid.order);
+            let n = [grid.cells[0], grid.cells[1], grid.cells[2]];
+            let mesh = SolidMesh::<3>::of_grid(n, |at| place(grid, at));
+            return meshed(file, "solid.0.grid", mesh, solid.order);
         }
         let Some(outline) = &solid.outline else {
             let message = "a shape of the plane has no inside in space".to_owned();
@@ -68,7 +72,16 @@ fn cells<const D: usize>(
     (nodes, cells): Cells<D>,
     order: SolidOrder,
 ) -> Result<SolidMesh<D>, Diagnostic> {
-    let mesh = SolidMesh::of_cells(nodes, &cells)
+    meshed(file, key, SolidMesh::of_cells(nodes, &cells), order)
+}
+
+fn meshed<const D: usize>(
+    file: &SoftFile,
+    key: &str,
+    mesh: Result<SolidMesh<D>, SolidError>,
+    order: SolidOrder,
+) -> Result<SolidMesh<D>, Diagnostic> {
+    let mesh = mesh
         .map_err(|error| file.error(key, format!("it cannot be meshed: {error}"), "change it"))?;
     Ok(if order == SolidOrder::Quadratic { mesh.quadratic() } else { mesh })
 }
@@ -117,65 +130,12 @@ fn inside_of_shape(file: &SoftFile, solid: &SoftSolid) -> Result<Triangles, Diag
     triangulate_inside(&corners, 2.0 * FRAC_PI_2 * size).map_err(|error| refused(error.to_string()))
 }
 
-/// A rectangle of squares, each of two triangles, divided in opposite ways in its two halves.
-fn squares(grid: &GridSpec) -> Cells<2> {
-    let n = [grid.cells[0], grid.cells[1]];
-    let node = |i: usize, j: usize| i * (n[1] + 1) + j;
-    let place = |axis: usize, k: usize| {
-        grid.from[axis] + (grid.to[axis] - grid.from[axis]) * k as f64 / n[axis] as f64
-    };
-    let nodes = (0..=n[0])
-        .flat_map(|i| (0..=n[1]).map(move |j| [i, j]))
-        .map(|[i, j]| Point::<2>::new(place(0, i), place(1, j)))
-        .collect();
-    let mut cells = Vec::new();
-    for i in 0..n[0] {
-        for j in 0..n[1] {
-            let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
-            if 2 * j < n[1] {
-                cells.extend([vec![a, b, d], vec![b, c, d]]);
-            } else {
-                cells.extend([vec![a, b, c], vec![a, c, d]]);
-            }
-        }
-    }
-    (nodes, cells)
-}
-
-/// The six ways from a corner of a cube to the opposite one along its edges.
-const WAYS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-
-/// A box of cubes, each of six tetrahedra.
-fn cubes(grid: &GridSpec) -> Cells<3> {
-    let n = [grid.cells[0], grid.cells[1], grid.cells[2]];
-    let node = |at: [usize; 3]| (at[0] * (n[1] + 1) + at[1]) * (n[2] + 1) + at[2];
-    let place = |axis: usize, k: usize| {
-        grid.from[axis] + (grid.to[axis] - grid.from[axis]) * k as f64 / n[axis] as f64
-    };
-    let mut nodes = Vec::new();
-    for i in 0..=n[0] {
-        for j in 0..=n[1] {
-            nodes
-                .extend((0..=n[2]).map(|k| Point::<3>::new(place(0, i), place(1, j), place(2, k))));
-        }
-    }
-    let mut cells = Vec::new();
-    for i in 0..n[0] {
-        for j in 0..n[1] {
-            for k in 0..n[2] {
-                for way in WAYS {
-                    let mut at = [i, j, k];
-                    let mut cell = vec![node(at)];
-                    for axis in way {
-                        at[axis] += 1;
-                        cell.push(node(at));
-                    }
-                    cells.push(cell);
-                }
-            }
-        }
-    }
-    (nodes, cells)
+/// The place (m) of a point of a grid by its numbers along the axes.
+fn place<const D: usize>(grid: &GridSpec, at: [usize; D]) -> Point<D> {
+    Point::<D>::from_fn(|axis, _| {
+        let [from, to] = [grid.from[axis], grid.to[axis]];
+        from + (to - from) * at[axis] as f64 / grid.cells[axis] as f64
+    })
 }
 
 /// A plate over triangles: prisms, each divided by the order of its vertices, so that neighbours agree.

@@ -49,6 +49,74 @@ pub struct SolidMesh<const D: usize> {
     pub facets: Vec<SolidFacet>,
 }
 
+/// The six ways from a corner of a cube to the opposite one along its edges.
+const WAYS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+
+impl SolidMesh<2> {
+    /// Linear triangles over a grid of so many squares, each divided in two, in opposite ways in the two halves along
+    /// the second axis, from the places (m) of its points by their numbers along both.
+    ///
+    /// # Errors
+    /// [`SolidError::Cell`] for a cell without volume.
+    pub fn of_grid(
+        n: [usize; 2],
+        place: impl Fn([usize; 2]) -> Point<2>,
+    ) -> Result<Self, SolidError> {
+        let node = |i: usize, j: usize| i * (n[1] + 1) + j;
+        let points = (0..=n[0]).flat_map(|i| (0..=n[1]).map(move |j| [i, j]));
+        let nodes = points.map(place).collect();
+        let mut cells = Vec::new();
+        for i in 0..n[0] {
+            for j in 0..n[1] {
+                let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+                if 2 * j < n[1] {
+                    cells.extend([vec![a, b, d], vec![b, c, d]]);
+                } else {
+                    cells.extend([vec![a, b, c], vec![a, c, d]]);
+                }
+            }
+        }
+        Self::of_cells(nodes, &cells)
+    }
+}
+
+impl SolidMesh<3> {
+    /// Linear tetrahedra over a grid of so many cubes, six each, from the places (m) of its points by their numbers
+    /// along the axes.
+    ///
+    /// # Errors
+    /// [`SolidError::Cell`] for a cell without volume.
+    pub fn of_grid(
+        n: [usize; 3],
+        place: impl Fn([usize; 3]) -> Point<3>,
+    ) -> Result<Self, SolidError> {
+        let node = |at: [usize; 3]| (at[0] * (n[1] + 1) + at[1]) * (n[2] + 1) + at[2];
+        let mut nodes = Vec::new();
+        for i in 0..=n[0] {
+            for j in 0..=n[1] {
+                nodes.extend((0..=n[2]).map(|k| place([i, j, k])));
+            }
+        }
+        let mut cells = Vec::new();
+        for i in 0..n[0] {
+            for j in 0..n[1] {
+                for k in 0..n[2] {
+                    for way in WAYS {
+                        let mut at = [i, j, k];
+                        let mut cell = vec![node(at)];
+                        for axis in way {
+                            at[axis] += 1;
+                            cell.push(node(at));
+                        }
+                        cells.push(cell);
+                    }
+                }
+            }
+        }
+        Self::of_cells(nodes, &cells)
+    }
+}
+
 impl<const D: usize> SolidMesh<D> {
     /// A mesh of linear simplices from vertices (m) and D + 1 of them a cell; cells of negative volume are
     /// turned round.
