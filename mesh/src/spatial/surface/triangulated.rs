@@ -58,6 +58,14 @@ struct Enclosed {
     area: f64,
 }
 
+/// A ball that holds nothing of a surface.
+#[derive(Debug, Clone, Copy)]
+struct Ball {
+    center: Point<3>,
+    /// Distance of the centre to the surface (m).
+    radius: f64,
+}
+
 /// How a triangle bends, and what is behind it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bend {
@@ -241,6 +249,7 @@ fn enclosed(patches: &[Patch]) -> Enclosed {
 /// How each triangle bends, and the balls behind it.
 fn bends(mesh: &TriangleMesh, facets: &Facets, reach: f64) -> Vec<Bend> {
     let normals = normals(mesh);
+    let mut empty = Ball { center: Point::<3>::zeros(), radius: 0.0 };
     let bend = |(triangle, vertices): (usize, &[u32; 3])| {
         let corners = mesh.corners(triangle);
         let (mut curvature, mut edge) = (0.0_f64, 0.0);
@@ -253,7 +262,7 @@ fn bends(mesh: &TriangleMesh, facets: &Facets, reach: f64) -> Vec<Bend> {
         }
         let least = RESOLVED * edge;
         let middle: Point<3> = corners.iter().sum::<Point<3>>() / 3.0;
-        let inside = ball_inside(facets, middle, 2.0 * reach);
+        let inside = ball_inside(facets, middle, 2.0 * reach, &mut empty);
         Bend { radius: (1.0 / curvature).max(least), inside: inside.max(least), edge }
     };
     mesh.triangles.iter().enumerate().map(bend).collect()
@@ -261,13 +270,22 @@ fn bends(mesh: &TriangleMesh, facets: &Facets, reach: f64) -> Vec<Bend> {
 
 /// Radius of the largest ball inside that touches a surface at its point nearest to another one (m), by
 /// balls that shrink from a radius until they hold nothing of the surface.
-fn ball_inside(facets: &Facets, near: Point<3>, largest: f64) -> f64 {
+///
+/// `empty` is a ball known to hold nothing, that of the triangle before. Around its centre distances differ
+/// by no more than places do, which spares the search from the middle of a ball, whose triangles are all
+/// as near: n searches of n triangles each for a sphere.
+fn ball_inside(facets: &Facets, near: Point<3>, largest: f64, empty: &mut Ball) -> f64 {
     let touching = facets.foot(near);
     let mut radius = largest;
     for _ in 0..MOST_STEPS {
         let center = touching.point - touching.normal * radius;
+        let enough = radius * (1.0 - CHANGE);
+        if empty.radius - (center - empty.center).norm() >= enough {
+            break;
+        }
         let held = facets.foot(center);
-        if held.gap.abs() >= radius * (1.0 - CHANGE) {
+        if held.gap.abs() >= enough {
+            *empty = Ball { center, radius: held.gap.abs() };
             break;
         }
         let way = touching.point - held.point;
