@@ -118,7 +118,7 @@ fn a_manufactured_axisymmetric_flow_with_convection_converges_at_the_same_orders
         let sides = sides(&mesh, move |place, time| EXACT.velocity(place, time));
         let mut problem =
             fluid_only(&mesh, sides, EXACT.density, EXACT.viscosity, Metric::Revolved);
-        problem.body_force = Some(&|place| EXACT.force(place));
+        problem.force = Some(Box::new(|place, _| EXACT.force(place)));
         errors(&mesh, &solve(&problem, &mesh), &EXACT, 0.0, Metric::Revolved)
     });
 }

@@ -38,7 +38,8 @@ fn sustained(mut mesh: Mesh<3>) -> Errors {
     }
     let sides = sides(&mesh, |place, time| SUSTAINED.velocity(place, time));
     let fluid = fluid_only(&mesh, sides, 1.0, SUSTAINED.viscosity, Metric::Cartesian);
-    let problem = Problem { body_force: Some(&|place| SUSTAINED.sustaining_force(place)), ..fluid };
+    let force = Box::new(|place: &Point<3>, _| SUSTAINED.sustaining_force(place));
+    let problem = Problem { force: Some(force), ..fluid };
     errors(&mesh, &solve(&problem, &mesh), &SUSTAINED, 0.0, Metric::Cartesian)
 }
 

@@ -58,7 +58,6 @@ pub fn fluid_only<const D: usize>(
         mean_flow: None,
         force: None,
         initial: None,
-        body_force: None,
         rate_discontinuities: None,
     }
 }

@@ -93,7 +93,6 @@ pub fn one_system_from_rest<const D: usize>(
         history: &history,
         convecting_velocity: &[],
         convection: flow::Convection::None,
-        body_force: None,
     };
     let start = system.at_rest(&constraints);
     let raw = timing.measure(Stage::Assembly, || system.fluid_residual(&at, &terms, &start));

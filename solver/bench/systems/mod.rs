@@ -115,7 +115,6 @@ impl TimeStep {
             history: &self.history,
             convecting_velocity: &self.crossing,
             convection: Convection::Oseen,
-            body_force: None,
         }
     }
 

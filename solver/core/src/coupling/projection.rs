@@ -53,7 +53,6 @@ fn terms<'a, const D: usize>(density: f64) -> FlowTerms<'a, D> {
         history: &[],
         convecting_velocity: &[],
         convection: Convection::None,
-        body_force: None,
     }
 }
 

@@ -109,7 +109,6 @@ impl<const D: usize> FlowEquations<D> for StepEquations<'_, D> {
             history: &self.history.derivative,
             convecting_velocity,
             convection,
-            body_force: self.problem.body_force,
         }
     }
 }

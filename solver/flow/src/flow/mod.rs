@@ -16,5 +16,5 @@ pub use assemble::{Assembly, assemble, pressure_unknowns, residual, transposed_p
 pub use local_viscosity::{LocalViscosity, PointViscosity, ViscosityTerm, squared_shear};
 pub use nodal::{nodal_pressure, nodal_vorticity};
 pub use parallel::{for_each_cell, integrate_basis};
-pub use terms::{BodyForce, Convection, Fields, FlowTerms};
+pub use terms::{Convection, Fields, FlowTerms};
 pub use viscosity::{Plateaus, Viscosity, ViscosityAtRate, YieldLaw};

@@ -1,14 +1,11 @@
 //! Which terms of the equations are present in a system, and the fields they are taken at.
 //!
-//! R(u, p; v, q) = int rho (a0 u + h + (c . grad) u) . v + sigma : grad v - f . v - q div u,
+//! R(u, p; v, q) = int rho (a0 u + h + (c . grad) u) . v + sigma : grad v - q div u,
 //! sigma = -p I + 2 mu D(u), with a0 u + h the time derivative and c = u - w what convects.
 
 use alewife_mesh::Point;
 
 use super::local_viscosity::ViscosityTerm;
-
-/// A force per unit volume as a function of position (N/m3), for manufactured solutions.
-pub type BodyForce<'a, const D: usize> = &'a (dyn Fn(&Point<D>) -> Point<D> + Sync);
 
 /// How the convection enters the matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,8 +36,6 @@ pub struct FlowTerms<'a, const D: usize> {
     pub convecting_velocity: &'a [Point<D>],
     /// How the convection enters the matrix.
     pub convection: Convection,
-    /// Force per unit volume.
-    pub body_force: Option<BodyForce<'a, D>>,
 }
 
 /// The fields at which a residual is taken.

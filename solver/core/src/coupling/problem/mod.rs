@@ -27,7 +27,7 @@ pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
 pub use side::{PressureProfile, Side, VelocityProfile};
 
 use crate::body::{Mode, Modes, Pose, Twist, on_mesh};
-use crate::flow::{BodyForce, Convection, LocalViscosity, Viscosity, ViscosityTerm};
+use crate::flow::{Convection, LocalViscosity, Viscosity, ViscosityTerm};
 use crate::space::Metric;
 use crate::structure::Held;
 
@@ -59,8 +59,6 @@ pub struct Problem<const D: usize> {
     pub force: Option<VelocityProfile<D>>,
     /// Velocity at the start (m/s), where it is not that of a fluid at rest.
     pub initial: Option<VelocityProfile<D>>,
-    /// Force per unit volume, for manufactured solutions.
-    pub body_force: Option<BodyForce<'static, D>>,
     /// Times at which the rates of gaits jump, if they ever do.
     pub rate_discontinuities: Option<RateDiscontinuities>,
 }

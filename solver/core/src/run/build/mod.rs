@@ -123,7 +123,6 @@ pub fn build_problem<const D: usize>(
             .then(|| vector(case, &case.fluid.force))
             .transpose()?,
         initial: case.initial.as_ref().map(|flow| vector(case, &flow.velocity)).transpose()?,
-        body_force: None,
         rate_discontinuities: None,
     };
     problem.rate_discontinuities = rate_discontinuities(model, &problem);

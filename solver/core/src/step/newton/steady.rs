@@ -136,7 +136,6 @@ fn terms_with<'a, const D: usize>(
         history: &[],
         convecting_velocity,
         convection,
-        body_force: problem.body_force,
     }
 }
 

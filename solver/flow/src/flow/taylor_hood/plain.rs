@@ -140,10 +140,7 @@ impl<const D: usize> PlainKernel<D> {
         let change = fields.velocity * terms.rate
             + fields.history
             + fields.gradient * fields.convecting_velocity;
-        let mut force = change * terms.density;
-        if let Some(body_force) = terms.body_force {
-            force -= body_force(&at.position);
-        }
+        let force = change * terms.density;
         let rate = fields.gradient + fields.gradient.transpose();
         let viscosity = self.viscosity(input, cell, at);
         let hoop = self.tables.metric().hoop_strain(&fields.velocity, &at.position);

@@ -7,14 +7,14 @@
 //! Axisymmetric problems add the hoop stress times its strain, (2 mu u_r / r - p) v_r / r. A viscosity that is
 //! linearised at a strain D0 adds 2 mu' (2 D0 : (D(u) - D0)) 2 D0 to the stress.
 
-use alewife_mesh::{CellId, NodeId, Point};
+use alewife_mesh::{CellId, NodeId};
 use pulp::Simd;
 
 use super::lanes::{add_product, add_scaled, multiply_add, product, scaled_rows};
 use super::points::{CellPoints, PointTable, gather, nodes_of};
 use super::shear::ShearPoints;
 use crate::flow::kernel::{CellInput, LocalLayout};
-use crate::flow::terms::{BodyForce, FlowTerms};
+use crate::flow::terms::FlowTerms;
 use crate::space::{DofLayout, Metric};
 
 /// Overwrites `residual` with the cell's raw residual.
@@ -40,9 +40,6 @@ pub fn cell_residual<S: Simd, const D: usize, const N: usize, const P: usize, co
             gradient[i] = points.gradient::<S, N, P>(table, &nodal.velocity[i]);
         }
         let mut force = nodal.inertia::<S, P, Q>(table, terms, &gradient);
-        if let Some(body_force) = terms.body_force {
-            subtract_body_force(&mut force, &points, body_force);
-        }
         let mut divergence = [0.0; Q];
         for i in 0..D {
             for q in 0..Q {
@@ -175,22 +172,6 @@ impl<const D: usize, const N: usize> NodalValues<D, N> {
             force = scaled_rows(&force, terms.density);
         }
         force
-    }
-}
-
-/// Subtracts a given force per unit volume at the points.
-#[inline(always)]
-fn subtract_body_force<const D: usize, const Q: usize>(
-    force: &mut [[f64; Q]; D],
-    points: &CellPoints<D, Q>,
-    body_force: BodyForce<'_, D>,
-) {
-    for q in 0..Q {
-        let position = Point::<D>::from_fn(|axis, _| points.position[axis][q]);
-        let given = body_force(&position);
-        for i in 0..D {
-            force[i][q] -= given[i];
-        }
     }
 }
 

@@ -139,7 +139,6 @@ impl<const D: usize> Setting<D> {
             history: &self.history,
             convecting_velocity: &self.convecting_velocity(convection),
             convection,
-            body_force: None,
         };
         work(&terms, &Fields { velocity: &self.velocity, pressure: &self.pressure })
     }
