@@ -84,7 +84,7 @@ fn a_fish_in_space_that_does_not_bend_is_rigid() {
                   orientation = { turned = { axis = [1.0, 0.5, 0.2], angle = 0.3 } }\n";
     let names = ["x", "z", "direction.y", "velocity.z", "torque.x", "angular_velocity.y", "power"];
     let end = |gait: &str| {
-        let outcome = run(&case(&fish(&format!("{pulled}{gait}"), "step = 0.05, end = 0.2")));
+        let outcome = run(&case(&fish(&format!("{pulled}{gait}"), "step = 0.05, end = 0.1")));
         names.map(|name| last(&outcome, &format!("fish.{name}")))
     };
     let rigid = end("");
