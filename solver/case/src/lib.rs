@@ -72,4 +72,5 @@ pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use text::diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use text::nearest::{nearest, several_nearest};
 pub use text::source::Location;
+pub use text::type_error::suggestion;
 pub use text::wall_time::WallTime;
