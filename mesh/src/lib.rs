@@ -53,4 +53,4 @@ pub use sizing::{SizeBox, Sizing};
 pub use surface::{
     Facing, FacingSurfaces, NearSurface, Sides, Surface, SurfacePoint, Surroundings,
 };
-pub use vtu::{Array, Precision, write_vtu, write_vtu_as};
+pub use vtu::{Array, Precision, write_points_vtu, write_vtu, write_vtu_as};

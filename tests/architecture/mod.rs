@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 34] = [
+const ROOMS: [(&str, &[&str]); 35] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -36,7 +36,8 @@ const ROOMS: [(&str, &[&str]); 34] = [
     ("gait", &["body", "case", "structure"]),
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "structure", "time", "timing"]),
-    ("state", &["body", "contact", "coupling", "space"]),
+    ("tracer", &[]),
+    ("state", &["body", "contact", "coupling", "space", "tracer"]),
     ("motion", &["algebra", "body", "contact", "coupling", "space", "state", "time"]),
     (
         "step",
@@ -72,11 +73,12 @@ const ROOMS: [(&str, &[&str]); 34] = [
             "structure",
             "time",
             "timing",
+            "tracer",
         ],
     ),
     ("gradient", &["algebra", "body", "case", "coupling", "motion", "run", "step"]),
     ("reduced", &["case", "run"]),
-    ("observer", &["body", "case", "flow", "run", "step", "timing"]),
+    ("observer", &["body", "case", "flow", "run", "step", "timing", "tracer"]),
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
     ("runner", &["case", "observer", "run", "step", "validation"]),

@@ -253,7 +253,10 @@ def _add_film(parser: argparse.ArgumentParser) -> None:
         help="in the plane",
     )
     parser.add_argument(
-        "--particles", type=Path, metavar="DIR", help="draw what `alewife-post trace` wrote as well"
+        "--particles",
+        type=Path,
+        metavar="DIR",
+        help="draw what `alewife-post trace` wrote as well, or the tracers of a run",
     )
     parser.add_argument("--no-trails", action="store_true", help="leave out the ways of centres")
 

@@ -16,7 +16,7 @@ pub use model::region::{normal_axis, opposite};
 pub use model::{Model, SwimmerModel};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
-    ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, columns,
+    ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, TracerQuantity, columns,
     known_quantities, reports_sides,
 };
 pub use read::CaseFile;
@@ -56,6 +56,7 @@ pub use spec::domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use spec::extent::Extent;
 pub use spec::field::{DipoleField, FieldSpec, LinearField, MagneticSpec, RotatingField};
 pub use spec::fluid::mean_flow::MeanFlowSpec;
+pub use spec::fluid::tracer::{SeedGrid, SeedLine, TracerRegion, TracerSpec};
 pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use spec::fluid::{FlowModel, Fluid};
 pub use spec::formula::{Definitions, Formula, FormulaError, ParsedFormula};

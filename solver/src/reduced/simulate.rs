@@ -49,7 +49,7 @@ impl Rows {
                     Some(Value::Scalar(joint(reduced, state, self.below[nth], quantity)))
                 }
                 Source::Swimmer(nth, quantity) => self.swimmers[nth].value(quantity),
-                Source::Probe(..) | Source::Flow(_) | Source::Side(..) => None,
+                Source::Probe(..) | Source::Tracer(..) | Source::Flow(_) | Source::Side(..) => None,
             };
             value.map(|value| value.component(column.component))
         };

@@ -15,6 +15,7 @@ pub(crate) mod recording;
 mod reference_rows;
 mod reference_table;
 pub(crate) mod schema;
+mod seed_file;
 mod stroke_file;
 mod surface_file;
 mod typing;
@@ -235,6 +236,7 @@ impl UntypedCase {
             spec::read(sweep).map_err(wrong)?;
         }
         outline_file::resolve(&mut self.root).map_err(wrong)?;
+        seed_file::resolve(&mut self.root).map_err(wrong)?;
         stroke_file::resolve(&mut self.root).map_err(wrong)?;
         let mut case = typed(&self.root)?;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;

@@ -29,7 +29,7 @@ pub use self::reduced::check_reduced;
 
 use self::body::{bodies, joints, strokes, swimmers};
 use self::findings::Findings;
-use self::flow::{boundary, cells, fluid, mean_flow, mesh};
+use self::flow::{boundary, cells, fluid, mean_flow, mesh, tracers};
 use crate::{CaseFile, Diagnostic, Geometry};
 
 /// All diagnostics of a case: errors, which stop a run, and warnings.
@@ -56,6 +56,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     contact::check(&mut findings);
     mesh::check(&mut findings);
     time::check(&mut findings);
+    tracers::check(&mut findings);
     references::check(&mut findings);
     reduced::check(&mut findings);
     extremes::check(&mut findings, file);

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, FlowModel, Fluid, Geometry,
     InitialFlow, Joint, LoadLaw, MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe,
-    ReducedSpec, Reference, Scales, Statistics, SwimmerSpec, TimeSettings, Units, Variant,
+    ReducedSpec, Reference, Scales, Statistics, SwimmerSpec, TimeSettings, TracerSpec, Units,
+    Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -72,6 +73,9 @@ pub struct Case {
     /// Points at which the flow is measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probe: Vec<Probe>,
+    /// Particles that the flow carries along.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tracer: Vec<TracerSpec>,
     /// Length and velocity that make coefficients and numbers dimensionless.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scales: Option<Scales>,

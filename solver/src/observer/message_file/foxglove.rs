@@ -6,6 +6,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::points;
 use super::primitives::{Timestamp, Xyz, Xyzw};
 use crate::body::{Pose, Twist, Wrench, in_space};
 use crate::run::{BodyReport, Snapshot};
@@ -26,6 +27,8 @@ pub enum Kind {
     Step,
     /// One body: pose, twist, loads.
     Body,
+    /// Particles that the flow carries.
+    Points,
 }
 
 impl Kind {
@@ -37,6 +40,7 @@ impl Kind {
             Self::Log => "foxglove.Log",
             Self::Step => "alewife.Step",
             Self::Body => "alewife.Body",
+            Self::Points => "foxglove.PointCloud",
         }
     }
 
@@ -55,6 +59,7 @@ impl Kind {
                 ])),
             )]),
             Self::Scene => scene_schema(),
+            Self::Points => points::schema(),
             Self::Log => object([
                 ("timestamp", timestamp_schema()),
                 ("level", json!({"type": "integer"})),
@@ -94,19 +99,19 @@ impl Kind {
     }
 }
 
-fn number_schema() -> Value {
+pub(super) fn number_schema() -> Value {
     json!({"type": "number"})
 }
 
-fn text_schema() -> Value {
+pub(super) fn text_schema() -> Value {
     json!({"type": "string"})
 }
 
-fn vector_schema() -> Value {
+pub(super) fn vector_schema() -> Value {
     object([("x", number_schema()), ("y", number_schema()), ("z", number_schema())])
 }
 
-fn rotation_schema() -> Value {
+pub(super) fn rotation_schema() -> Value {
     object([
         ("x", number_schema()),
         ("y", number_schema()),
@@ -325,15 +330,15 @@ struct RecoilMessage {
     angular_velocity: f64,
 }
 
-fn timestamp_schema() -> Value {
+pub(super) fn timestamp_schema() -> Value {
     object([("sec", json!({"type": "integer"})), ("nsec", json!({"type": "integer"}))])
 }
 
-fn object<'a>(properties: impl IntoIterator<Item = (&'a str, Value)>) -> Value {
+pub(super) fn object<'a>(properties: impl IntoIterator<Item = (&'a str, Value)>) -> Value {
     let properties = properties.into_iter().map(|(name, value)| (name.to_owned(), value));
     json!({"type": "object", "properties": properties.collect::<serde_json::Map<_, _>>()})
 }
 
-fn list(items: Value) -> Value {
+pub(super) fn list(items: Value) -> Value {
     json!({"type": "array", "items": items})
 }
