@@ -114,7 +114,6 @@ impl Options {
     fn reduced(&self) -> reduced::Request<'_> {
         let given = [
             ("resume", self.resume.is_some()),
-            ("replay", self.replay.is_some()),
             ("continue", self.continues),
             ("max-walltime", self.max_walltime.is_some()),
             ("live", self.live.is_some()),
@@ -124,6 +123,7 @@ impl Options {
             settings: &self.settings.set,
             out: self.out.as_deref(),
             overwrite: self.overwrite,
+            replay: self.replay.as_deref(),
             foreign: given
                 .iter()
                 .filter(|(_, is_given)| *is_given)

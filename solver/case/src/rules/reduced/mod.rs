@@ -6,7 +6,7 @@ use super::Findings;
 use crate::text::nearest::nearest;
 use crate::{
     Body, BoundaryCondition, CaseFile, Diagnostic, FlowModel, Geometry, JointKind, LoadLaw, Motion,
-    ReducedSpec, ShapeSpec, Stroke, TimeSettings,
+    ReducedSpec, ShapeSpec, TimeSettings,
 };
 
 /// Problems of a case with `[reduced]`.
@@ -191,7 +191,7 @@ fn shape(findings: &mut Findings<'_>, key: &str, body: &Body) {
     }
 }
 
-/// Joints of one coordinate that do as they are told from the start.
+/// Joints of one coordinate that do as they are told.
 fn joints(findings: &mut Findings<'_>, spec: &ReducedSpec) {
     for (index, joint) in findings.model().joints.iter().enumerate() {
         let key = format!("joint.{index}.kind");
@@ -203,18 +203,11 @@ fn joints(findings: &mut Findings<'_>, spec: &ReducedSpec) {
                 "motion = \"held\" for the first body, or the full solver: --fidelity ale",
             );
         }
-        let stroke = match &joint.kind {
-            JointKind::Hinge(hinge) => hinge.torque.as_ref(),
-            JointKind::Slider(slider) => slider.force.as_ref(),
-            kind => kind.stroke(),
-        };
-        let is_asked = matches!(stroke, Some(Stroke::Command(_)));
         let what = match &joint.kind {
             JointKind::Ball(_) => "turn about all axes",
             JointKind::Hinge(_) | JointKind::Slider(_) if spec.loads == LoadLaw::Resistive => {
                 "are free without inertia"
             }
-            _ if is_asked => "are commanded while the run goes on",
             _ => continue,
         };
         findings.error(
