@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 34] = [
+const ROOMS: [(&str, &[&str]); 35] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -76,6 +76,7 @@ const ROOMS: [(&str, &[&str]); 34] = [
     ),
     ("gradient", &["algebra", "body", "case", "coupling", "motion", "run", "step"]),
     ("reduced", &["case", "run"]),
+    ("optimise", &["case", "gradient"]),
     ("observer", &["body", "case", "flow", "run", "step", "timing"]),
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
@@ -86,6 +87,7 @@ const ROOMS: [(&str, &[&str]); 34] = [
             "case",
             "gradient",
             "observer",
+            "optimise",
             "reduced",
             "run",
             "runner",

@@ -15,6 +15,7 @@ pub(crate) mod recording;
 mod reference_rows;
 mod reference_table;
 pub(crate) mod schema;
+pub(crate) mod sought;
 mod stroke_file;
 mod surface_file;
 mod typing;
