@@ -29,6 +29,7 @@
 
 pub mod cli;
 pub mod observer;
+pub mod optimise;
 pub mod reduced;
 pub mod runner;
 pub mod sweep;

@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 35] = [
+const ROOMS: [(&str, &[&str]); 36] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -78,6 +78,7 @@ const ROOMS: [(&str, &[&str]); 35] = [
     ),
     ("gradient", &["algebra", "body", "case", "coupling", "motion", "run", "step"]),
     ("reduced", &["case", "run"]),
+    ("optimise", &["case", "gradient"]),
     ("observer", &["body", "case", "flow", "run", "step", "timing", "tracer"]),
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
@@ -88,6 +89,7 @@ const ROOMS: [(&str, &[&str]); 35] = [
             "case",
             "gradient",
             "observer",
+            "optimise",
             "reduced",
             "run",
             "runner",

@@ -17,13 +17,14 @@ pub use model::{Model, SwimmerModel};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
     ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, TracerQuantity, columns,
-    known_quantities, reports_sides,
+    differentiable_columns, known_quantities, reports_sides,
 };
 pub use read::CaseFile;
 pub use read::library;
 pub use read::problem_keys::collect_keys;
 pub use read::recording::Recording;
 pub use read::schema::schema;
+pub use read::sought::{KeyNumber, SOLVED_TABLES, SoughtNumber, numbers_at};
 pub use rules::{at_rest, check, check_reduced};
 pub use spec::body::axial_vector::AxialVector;
 pub use spec::body::command::Command;
@@ -63,6 +64,10 @@ pub use spec::formula::{Definitions, Formula, FormulaError, ParsedFormula};
 pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use spec::mesh_file::MeshFile;
+pub use spec::optimisation::{
+    FlowObjective, FlowOptimisation, FlowParameter, NamedQuantity, ObjectiveExpression,
+    OptimumReference, SearchSettings, WeightedQuantity,
+};
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
 pub use spec::reduced::{AddedMassSpec, Coefficient, LoadLaw, ReducedSpec};
 pub use spec::time::{

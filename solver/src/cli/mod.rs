@@ -8,6 +8,7 @@ mod gradient;
 mod library;
 mod manual;
 mod mesh;
+mod optimise;
 mod panic;
 mod parent;
 mod plot;
@@ -113,7 +114,7 @@ enum Command {
     Gradient(gradient::Options),
     /// Find the numbers of a soft case that make it move as recorded
     Calibrate(soft::SearchOptions),
-    /// Find the numbers of a soft case that make its objective large
+    /// Find the numbers of a case that make its objective large: of a soft case, or of a steady flow
     Optimise(soft::SearchOptions),
     /// Optimise, have a robot move so, and calibrate by what is seen, in turns
     Loop(soft::LoopOptions),
@@ -197,7 +198,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         Command::Run(options) => run::run(&options),
         Command::Gradient(options) => gradient::gradient(&options),
         Command::Calibrate(options) => soft::seek(&options, Which::Calibration),
-        Command::Optimise(options) => soft::seek(&options, Which::Optimisation),
+        Command::Optimise(options) => optimise::optimise(&options),
         Command::Loop(options) => soft::rounds(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),

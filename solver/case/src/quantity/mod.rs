@@ -2,12 +2,14 @@
 //!
 //! A new quantity is one row of `table.rs` and one arm of its `match` in the measurements of a run.
 
+mod differentiable;
 mod row;
 mod sides;
 mod table;
 
 use crate::{FlowModel, Geometry, MagneticSpec, Model, SwimmerModel, TimeSettings};
 
+pub use self::differentiable::differentiable_columns;
 pub use self::row::{Component, Condition, NamedComponent, Quantity, Shape};
 use self::sides::reported_sides;
 pub use self::table::{

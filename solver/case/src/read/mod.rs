@@ -16,6 +16,7 @@ mod reference_rows;
 mod reference_table;
 pub(crate) mod schema;
 mod seed_file;
+pub(crate) mod sought;
 mod stroke_file;
 mod surface_file;
 mod typing;

@@ -18,6 +18,7 @@ mod flow;
 mod general;
 mod given;
 mod near;
+mod optimisation;
 mod placement;
 mod reduced;
 mod references;
@@ -59,6 +60,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     tracers::check(&mut findings);
     references::check(&mut findings);
     reduced::check(&mut findings);
+    optimisation::check(&mut findings, file);
     extremes::check(&mut findings, file);
     if findings.has_no_error() {
         cells::check(&mut findings);

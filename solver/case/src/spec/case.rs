@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, FlowModel, Fluid, Geometry,
-    InitialFlow, Joint, LoadLaw, MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe,
-    ReducedSpec, Reference, Scales, Statistics, SwimmerSpec, TimeSettings, TracerSpec, Units,
-    Variant,
+    Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, FlowModel, FlowOptimisation,
+    Fluid, Geometry, InitialFlow, Joint, LoadLaw, MagneticSpec, MeanFlowSpec, MeshSettings,
+    Numbers, Output, Probe, ReducedSpec, Reference, Scales, Statistics, SwimmerSpec, TimeSettings,
+    TracerSpec, Units, Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -63,6 +63,9 @@ pub struct Case {
     /// The reduced model, for runs with `--fidelity reduced`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedSpec>,
+    /// Which numbers `alewife optimise` finds, and for what.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub optimisation: Option<FlowOptimisation>,
     /// Cell sizes.
     pub mesh: MeshSettings,
     /// Steady solution or time steps.

@@ -14,6 +14,7 @@ pub(crate) mod mesh;
 pub(crate) mod mesh_file;
 #[cfg(test)]
 pub mod number;
+pub(crate) mod optimisation;
 pub(crate) mod output;
 pub(crate) mod reduced;
 pub(crate) mod time;

@@ -6,6 +6,7 @@ mod error;
 mod journal;
 mod minimise;
 mod progress;
+mod report;
 mod sought;
 
 pub use bounded::Bounded;
@@ -14,4 +15,5 @@ pub use error::SearchError;
 pub use journal::{Journal, Opened};
 pub use minimise::{Ended, Evaluated, Found, Search, minimise};
 pub use progress::{Progress, search};
+pub use report::{Certainties, number_lines, numbers_to_json};
 pub use sought::Sought;

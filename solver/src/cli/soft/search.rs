@@ -28,18 +28,18 @@ report.json: each number with its bounds and how well it is determined.")]
 pub struct SearchOptions {
     /// Which case
     #[arg(add = complete::case())]
-    case: String,
+    pub case: String,
     #[command(flatten)]
-    settings: Settings,
+    pub settings: Settings,
     /// Directory of the search; `runs/<case>-calibration` or `-optimisation` if absent
     #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     /// Replace a finished search
     #[arg(long)]
-    overwrite: bool,
+    pub overwrite: bool,
     /// No progress on the terminal
     #[arg(long, short)]
-    quiet: bool,
+    pub quiet: bool,
 }
 
 /// Seeks what a case asks for.
