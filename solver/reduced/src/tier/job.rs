@@ -150,7 +150,7 @@ where
         let Kind::Optimisation(objective) = self.seeker.kind.clone() else { return None };
         self.seeker.set(&best.values).ok()?;
         let Model { body, plan, .. } = &self.seeker.model;
-        let motion = body.simulate(plan).ok()?;
+        let motion = Bodies::simulate(body, plan).ok()?;
         Some(self.seeker.way_and_work(objective.direction(), &motion))
     }
 

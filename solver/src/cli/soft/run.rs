@@ -43,8 +43,8 @@ where
     let out = place.out.clone().unwrap_or_else(default);
     let model = Model::<D>::new(file)?;
     prepare(&out, [LAST, "vtu"], place.overwrite)?;
-    let motion =
-        model.body.simulate(&model.plan).map_err(alewife_reduced::tier::TierError::from)?;
+    let motion = Bodies::simulate(&model.body, &model.plan)
+        .map_err(alewife_reduced::tier::TierError::from)?;
     let table = series(&model, &motion).map_err(alewife_reduced::tier::TierError::from)?;
     let compared = if place.compares {
         compare(&file.case, ReferenceOf::Run, &|name| table.last(name))
