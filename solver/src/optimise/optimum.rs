@@ -1,11 +1,12 @@
 //! `Optimum`: what a search of a steady flow came to, its report and its files.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::io;
 use std::path::Path;
 
-use alewife_reduced::search::{Bounded, Certainties, Found, number_lines, numbers_to_json};
+use alewife_reduced::search::{
+    Bounded, Certainties, Found, number_lines, numbers_to_json, write_whole,
+};
 use serde_json::{Value, json};
 
 use crate::case::{CaseFile, MeshFile, OptimumReference};
@@ -138,7 +139,7 @@ impl Optimum {
     pub fn write(&self, directory: &Path) -> io::Result<()> {
         let mut case = self.file.case().naming_mesh(MESH);
         if let Some(mesh) = self.file.case().given_mesh().and_then(MeshFile::bytes) {
-            fs::write(directory.join(MESH), mesh)?;
+            write_whole(&directory.join(MESH), mesh)?;
         }
         // References are values of the case as it was
         case.reference = Vec::new();
@@ -151,9 +152,9 @@ impl Optimum {
             }
         }
         let text = case.to_toml().map_err(io::Error::other)?;
-        fs::write(directory.join("evaluations.csv"), self.table())?;
-        fs::write(directory.join("case.toml"), text)?;
-        fs::write(directory.join("report.json"), format!("{:#}\n", self.to_json()))
+        write_whole(&directory.join("evaluations.csv"), self.table())?;
+        write_whole(&directory.join("case.toml"), text)?;
+        write_whole(&directory.join("report.json"), format!("{:#}\n", self.to_json()))
     }
 }
 

@@ -124,6 +124,9 @@ fn the_spheroid_of_least_drag_is_found_and_runs() {
     let column = rows[0].iter().position(|name| *name == "spheroid.force.x").unwrap();
     let run: f64 = rows.last().unwrap()[column].parse().unwrap();
     assert!((run / force - 1.0).abs() < 1e-4, "{run} and {force}");
+    // So does a validation, which compares the optimum
+    let said = done(at, &["validate", "spheroid.toml"]);
+    assert!(said.contains("aspect (optimisation)") && said.contains("1 of 1 values"), "{said}");
     // A search of what was found stays there
     let said = done(at, &["optimise", "o/case.toml", "--out", "p", "--quiet"]);
     assert!(said.contains("in 1 rounds"), "{said}");

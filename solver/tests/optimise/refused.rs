@@ -74,5 +74,6 @@ fn a_search_ends_with_its_evaluations_and_says_how_long_it_takes() {
     assert!(table.starts_with("evaluation,objective,height,slope.height\n1,"), "{table}");
     assert_eq!(table.lines().count(), 5);
     // The case is one of a run all the same
-    assert!(done(at, &["check", "disc.toml"]).contains("disc"));
+    let checked = done(at, &["check", "disc.toml"]);
+    assert!(checked.contains("`alewife optimise`: disc.force.x by height"), "{checked}");
 }

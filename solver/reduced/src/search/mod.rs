@@ -8,6 +8,7 @@ mod minimise;
 mod progress;
 mod report;
 mod sought;
+mod whole_file;
 
 pub use bounded::Bounded;
 pub use certainty::{Certainty, certainties};
@@ -17,3 +18,4 @@ pub use minimise::{Ended, Evaluated, Found, Search, minimise};
 pub use progress::{Progress, search};
 pub use report::{Certainties, number_lines, numbers_to_json};
 pub use sought::Sought;
+pub use whole_file::write_whole;

@@ -17,7 +17,7 @@ use super::parameters::Sought;
 use super::rounds::settings;
 use crate::search::{
     Bounded, Certainties, Evaluated, Found, Progress, SearchError, certainties, number_lines,
-    numbers_to_json, search,
+    numbers_to_json, search, write_whole,
 };
 
 /// The rise of a loss, of that at the start, that counts as one where parameters are called determined.
@@ -150,7 +150,7 @@ where
         let Kind::Optimisation(objective) = self.seeker.kind.clone() else { return None };
         self.seeker.set(&best.values).ok()?;
         let Model { body, plan, .. } = &self.seeker.model;
-        let motion = body.simulate(plan).ok()?;
+        let motion = Bodies::simulate(body, plan).ok()?;
         Some(self.seeker.way_and_work(objective.direction(), &motion))
     }
 
@@ -215,6 +215,6 @@ impl JobResult {
     pub fn write(&self, directory: &Path, file: &SoftFile, which: Which) -> std::io::Result<()> {
         write_case(directory, file, &self.case)?;
         let report = format!("{:#}\n", self.to_json(which));
-        std::fs::write(directory.join("report.json"), report)
+        write_whole(&directory.join("report.json"), report)
     }
 }

@@ -9,8 +9,8 @@ use super::exit::{Exit, Failure};
 use super::read::read_case;
 use super::soft::{self, SearchOptions, not_written, prepare, progress_line};
 use super::style::{complain, say};
-use crate::case::CaseFile;
 use crate::case::soft::SoftFile;
+use crate::case::{CaseFile, printable};
 use crate::optimise::{Compared, FlowSearch, OptimiseError, RoundProgress};
 
 /// The file that is written last.
@@ -47,6 +47,16 @@ pub fn optimise(options: &SearchOptions) -> Result<Exit, Failure> {
         _ if compared.iter().all(Compared::is_within) => Ok(Exit::Done),
         _ => Ok(Exit::OutsideTolerance),
     }
+}
+
+/// What the search of a case is about, in a line.
+pub fn search_line(file: &CaseFile) -> Option<String> {
+    let spec = file.case().optimisation.as_ref()?;
+    let quantities = spec.objective.quantities();
+    let quantities: Vec<&str> = quantities.iter().map(|part| part.quantity).collect();
+    let numbers: Vec<String> = file.sought().into_iter().map(|number| number.name).collect();
+    let line = format!("`alewife optimise`: {} by {}", quantities.join(", "), numbers.join(", "));
+    Some(printable(&line))
 }
 
 /// Where a search is written if nothing else is asked for.
