@@ -144,6 +144,7 @@ fn state() -> State<2> {
         propulsion: vec![propulsion()],
         energy: energy(),
         momentum: momentum(),
+        tracers: Vec::new(),
     })
 }
 
