@@ -107,6 +107,8 @@ const FOREIGN: [(&str, &[&str]); 9] = [
     (
         "num_dual",
         &[
+            "solver/case/src/spec/body/given/midline.rs",
+            "solver/case/src/spec/formula/",
             "solver/core/src/gait/",
             "solver/reduced/src/tree/",
             "solver/solid/src/material/",

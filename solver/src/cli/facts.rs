@@ -166,6 +166,7 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
         Some(GaitSpec::Carangiform(_)) => ", carangiform".to_owned(),
         Some(GaitSpec::Anguilliform(_)) => ", anguilliform".to_owned(),
         Some(GaitSpec::Flagellum(_)) => ", flagellum".to_owned(),
+        Some(GaitSpec::Midline(_)) => ", midline of its own".to_owned(),
         Some(GaitSpec::Pulsating(_)) => ", pulsating".to_owned(),
         Some(GaitSpec::Joints(gait)) => format!(", bent at {} joints", gait.joints.len()),
         None => String::new(),

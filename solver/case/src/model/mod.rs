@@ -119,6 +119,7 @@ impl Model {
             }
         }
         model.connect_commands();
+        model.define_midlines();
         Ok(model)
     }
 

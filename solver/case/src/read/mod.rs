@@ -7,6 +7,7 @@
 //! their names.
 
 pub(crate) mod case_text;
+mod columns;
 pub mod library;
 mod outline_file;
 pub(crate) mod problem_keys;
@@ -15,7 +16,6 @@ pub(crate) mod recording;
 mod reference_rows;
 mod reference_table;
 pub(crate) mod schema;
-mod seed_file;
 pub(crate) mod sought;
 mod stroke_file;
 mod surface_file;
@@ -25,6 +25,7 @@ mod variants;
 use std::sync::Arc;
 
 use self::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
+use self::columns::{midline_file, probe_line, seed_file};
 use self::reference_rows::REFERENCES;
 use self::typing::typed;
 use self::variants::{apply_variant, check_names, variant_names};
@@ -238,6 +239,8 @@ impl UntypedCase {
         }
         outline_file::resolve(&mut self.root).map_err(wrong)?;
         seed_file::resolve(&mut self.root).map_err(wrong)?;
+        probe_line::resolve(&mut self.root).map_err(wrong)?;
+        midline_file::resolve(&mut self.root).map_err(wrong)?;
         stroke_file::resolve(&mut self.root).map_err(wrong)?;
         let mut case = typed(&self.root)?;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;

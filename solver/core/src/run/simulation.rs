@@ -218,6 +218,13 @@ impl<const D: usize> Simulation<D> {
         Ok(())
     }
 
+    /// Releases the tracers that are there at the start.
+    pub(super) fn begin_tracers(&mut self) {
+        if let Some(tracers) = &self.tracers {
+            self.state.carry_tracers(|state, clouds| tracers.begin(state, clouds));
+        }
+    }
+
     /// Whether rates of gaits jump within `near` (s) of the present.
     #[must_use]
     pub fn is_at_discontinuity(&self, near: f64) -> bool {

@@ -6,7 +6,6 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::points;
 use super::primitives::{Timestamp, Xyz, Xyzw};
 use crate::body::{Pose, Twist, Wrench, in_space};
 use crate::run::{BodyReport, Snapshot};
@@ -59,7 +58,7 @@ impl Kind {
                 ])),
             )]),
             Self::Scene => scene_schema(),
-            Self::Points => points::schema(),
+            Self::Points => points_schema(),
             Self::Log => object([
                 ("timestamp", timestamp_schema()),
                 ("level", json!({"type": "integer"})),
@@ -99,19 +98,19 @@ impl Kind {
     }
 }
 
-pub(super) fn number_schema() -> Value {
+fn number_schema() -> Value {
     json!({"type": "number"})
 }
 
-pub(super) fn text_schema() -> Value {
+fn text_schema() -> Value {
     json!({"type": "string"})
 }
 
-pub(super) fn vector_schema() -> Value {
+fn vector_schema() -> Value {
     object([("x", number_schema()), ("y", number_schema()), ("z", number_schema())])
 }
 
-pub(super) fn rotation_schema() -> Value {
+fn rotation_schema() -> Value {
     object([
         ("x", number_schema()),
         ("y", number_schema()),
@@ -129,6 +128,20 @@ fn recoil_schema() -> Value {
     ]);
     schema["type"] = json!(["object", "null"]);
     schema
+}
+
+fn points_schema() -> Value {
+    let pose = object([("position", vector_schema()), ("orientation", rotation_schema())]);
+    let integer = || json!({"type": "integer"});
+    let field = object([("name", text_schema()), ("offset", integer()), ("type", integer())]);
+    object([
+        ("timestamp", timestamp_schema()),
+        ("frame_id", text_schema()),
+        ("pose", pose),
+        ("point_stride", integer()),
+        ("fields", list(field)),
+        ("data", json!({"type": "string", "contentEncoding": "base64"})),
+    ])
 }
 
 fn scene_schema() -> Value {
@@ -330,15 +343,15 @@ struct RecoilMessage {
     angular_velocity: f64,
 }
 
-pub(super) fn timestamp_schema() -> Value {
+fn timestamp_schema() -> Value {
     object([("sec", json!({"type": "integer"})), ("nsec", json!({"type": "integer"}))])
 }
 
-pub(super) fn object<'a>(properties: impl IntoIterator<Item = (&'a str, Value)>) -> Value {
+fn object<'a>(properties: impl IntoIterator<Item = (&'a str, Value)>) -> Value {
     let properties = properties.into_iter().map(|(name, value)| (name.to_owned(), value));
     json!({"type": "object", "properties": properties.collect::<serde_json::Map<_, _>>()})
 }
 
-pub(super) fn list(items: Value) -> Value {
+fn list(items: Value) -> Value {
     json!({"type": "array", "items": items})
 }

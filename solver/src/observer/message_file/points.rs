@@ -2,11 +2,8 @@
 
 use data_encoding::BASE64;
 use serde::Serialize;
-use serde_json::{Value, json};
 
-use super::foxglove::{
-    WORLD, list, object, rotation_schema, text_schema, timestamp_schema, vector_schema,
-};
+use super::foxglove::WORLD;
 use super::primitives::{Placement, Timestamp};
 use crate::body::in_space;
 use crate::tracer::Cloud;
@@ -15,21 +12,6 @@ use crate::tracer::Cloud;
 const STRIDE: u32 = 16;
 /// A number of single precision, in the words of viewers.
 const FLOAT32: u8 = 7;
-
-/// The schema of a cloud.
-pub fn schema() -> Value {
-    let pose = object([("position", vector_schema()), ("orientation", rotation_schema())]);
-    let integer = || json!({"type": "integer"});
-    let field = object([("name", text_schema()), ("offset", integer()), ("type", integer())]);
-    object([
-        ("timestamp", timestamp_schema()),
-        ("frame_id", text_schema()),
-        ("pose", pose),
-        ("point_stride", integer()),
-        ("fields", list(field)),
-        ("data", json!({"type": "string", "contentEncoding": "base64"})),
-    ])
-}
 
 #[derive(Serialize)]
 struct Field {

@@ -112,6 +112,7 @@ fn gait_drives(body: &Body) -> bool {
         }
         Some(GaitSpec::Anguilliform(gait)) => gait.amplitude != 0.0,
         Some(GaitSpec::Flagellum(gait)) => gait.amplitude != 0.0,
+        Some(GaitSpec::Midline(_)) => true,
         Some(GaitSpec::Pulsating(gait)) => {
             let differs = gait.table.windows(2).any(|pair| pair[0][1] != pair[1][1]);
             gait.amplitude.is_some_and(|amplitude| amplitude != 0.0) || differs

@@ -54,7 +54,7 @@ pub struct SeedGrid {
     pub count: Vec<usize>,
 }
 
-/// `tracer.line`: particles at equal distances, one at each end.
+/// `line` of tracers or of a probe: places of equal distance, one at each end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -65,7 +65,7 @@ pub struct SeedLine {
     /// The other end (m).
     #[cfg_attr(test, schemars(with = "PerDimension"))]
     pub to: Vec<f64>,
-    /// Particles, two or more.
+    /// Places, two or more.
     #[cfg_attr(test, schemars(range(min = 2)))]
     pub count: usize,
 }

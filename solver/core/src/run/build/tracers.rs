@@ -6,7 +6,6 @@ use crate::body::on_mesh;
 use crate::case::{Case, TracerRegion, TracerSpec};
 use crate::coupling::{Problem, Side};
 use crate::motion::MovingMesh;
-use crate::run::simulation::Simulation;
 use crate::state::{Evolving, State};
 use crate::tracer::{Cloud, FlowStep, Passage, Region, Source, carry};
 
@@ -72,7 +71,7 @@ impl<const D: usize> Tracers<D> {
     }
 
     /// Releases what is there at the start.
-    fn begin(&self, state: &Evolving<D>, clouds: &mut Vec<Cloud<D>>) {
+    pub(in crate::run) fn begin(&self, state: &Evolving<D>, clouds: &mut Vec<Cloud<D>>) {
         *clouds = self.sources.iter().map(|_| Cloud::default()).collect();
         let step = FlowStep {
             mesh: &state.mesh,
@@ -83,15 +82,6 @@ impl<const D: usize> Tracers<D> {
             passages: &self.passages,
         };
         carry(clouds, &self.sources, &step);
-    }
-}
-
-impl<const D: usize> Simulation<D> {
-    /// Releases the tracers that are there at the start.
-    pub(in crate::run) fn begin_tracers(&mut self) {
-        if let Some(tracers) = &self.tracers {
-            self.state.carry_tracers(|state, clouds| tracers.begin(state, clouds));
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::case_text::source_beside;
+use crate::read::case_text::source_beside;
 use crate::text::source::{Origin, Source};
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
 
