@@ -71,7 +71,7 @@ fn check_one(argument: &str, settings: &[String], depth: Depth) -> Result<(), Fa
         text.extend(recoils.iter().map(|recoil| format!("  {}\n", recoil_line(recoil))));
     }
     say(text.trim_end());
-    if depth >= Depth::Mesh {
+    if depth >= Depth::Mesh && !file.case().is_reduced_only() {
         match file.case().geometry.dimensions() {
             2 => tell_of_mesh::<2>(&file, depth)?,
             _ => tell_of_mesh::<3>(&file, depth)?,
