@@ -25,7 +25,7 @@ pub use read::problem_keys::collect_keys;
 pub use read::recording::Recording;
 pub use read::schema::schema;
 pub use read::sought::{KeyNumber, SOLVED_TABLES, SoughtNumber, numbers_at};
-pub use rules::{at_rest, check, check_reduced};
+pub use rules::{at_rest, check, check_flow, check_reduced};
 pub use spec::body::axial_vector::AxialVector;
 pub use spec::body::command::Command;
 pub use spec::body::gait::{
@@ -47,6 +47,7 @@ pub use spec::body::squirmer::SquirmerGait;
 pub use spec::body::stroke::{Stroke, smooth_ramp};
 pub use spec::body::swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use spec::body::{Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, PartSpec, ShapeSpec};
+pub use spec::calibration::{CalibrationSpec, FitBy, RecordFrame, RecordSpec};
 pub use spec::case::Case;
 pub use spec::comparison::reference::{
     Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant,
@@ -70,7 +71,11 @@ pub use spec::optimisation::{
     OptimumReference, SearchSettings, WeightedQuantity,
 };
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
-pub use spec::reduced::{AddedMassSpec, Coefficient, LoadLaw, ReducedSpec};
+pub use spec::reduced::law::{Coefficient, LoadLaw};
+pub use spec::reduced::parts::{
+    BuoyancySpec, CalibratedSpec, ConnectionSpec, LagSpec, ThrusterSpec,
+};
+pub use spec::reduced::{AddedMassSpec, ReducedSpec};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };

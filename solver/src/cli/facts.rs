@@ -26,12 +26,16 @@ pub fn facts(file: &CaseFile) -> String {
         format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units.to_string()));
     line("geometry", units);
     line("fluid", fluid(case));
-    line("domain", domain(case));
-    let sides = case.sides().into_iter().filter(|side| *side != "axis").map(|side| {
-        let condition = case.boundary.get(side).map_or("nothing", condition_name);
-        format!("{side} {condition}")
-    });
-    line("boundary", sides.collect::<Vec<_>>().join(", "));
+    if case.is_reduced_only() {
+        line("domain", "none: run it with --fidelity reduced".to_owned());
+    } else {
+        line("domain", domain(case));
+        let sides = case.sides().into_iter().filter(|side| *side != "axis").map(|side| {
+            let condition = case.boundary.get(side).map_or("nothing", condition_name);
+            format!("{side} {condition}")
+        });
+        line("boundary", sides.collect::<Vec<_>>().join(", "));
+    }
     if let Some(flow) = &case.flow {
         line("flow", mean_flow(flow));
     }

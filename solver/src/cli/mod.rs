@@ -1,5 +1,6 @@
 //! The command line: commands, their output, and the exit codes.
 
+mod calibrate;
 mod check;
 mod complete;
 mod exit;
@@ -112,7 +113,7 @@ enum Command {
     Run(run::Options),
     /// Print how quantities of a steady flow change with numbers of its case
     Gradient(gradient::Options),
-    /// Find the numbers of a soft case that make it move as recorded
+    /// Find the numbers of a soft case that make it move as recorded, or coefficients of a reduced model
     Calibrate(soft::SearchOptions),
     /// Find the numbers of a case that make its objective large: of a soft case, or of a steady flow
     Optimise(soft::SearchOptions),
@@ -197,7 +198,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         }
         Command::Run(options) => run::run(&options),
         Command::Gradient(options) => gradient::gradient(&options),
-        Command::Calibrate(options) => soft::seek(&options, Which::Calibration),
+        Command::Calibrate(options) => calibrate::calibrate(&options),
         Command::Optimise(options) => optimise::optimise(&options),
         Command::Loop(options) => soft::rounds(&options),
         Command::Plot(options) => plot::plot(&options),

@@ -72,6 +72,13 @@ impl Model {
         for (what, below, command) in magnetic.map(of_magnetic).unwrap_or_default() {
             commands.connect(format!("field.{what}"), format!("field.magnetic.{below}"), command);
         }
+        let thrusters = self.case.reduced.iter_mut().flat_map(|reduced| &mut reduced.thruster);
+        for (index, thruster) in thrusters.enumerate() {
+            if let Some(command) = of_stroke(Some(&mut thruster.drive)) {
+                let key = format!("reduced.thruster.{index}.drive");
+                commands.connect(format!("thruster.{}", thruster.name), key, command);
+            }
+        }
         self.commands = commands;
     }
 }

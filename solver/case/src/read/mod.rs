@@ -6,8 +6,10 @@
 //! inherited: what is known of one problem does not hold for another. Then the values of files take the place of
 //! their names.
 
+mod calibrated_file;
 pub(crate) mod case_text;
 mod columns;
+mod left_out;
 pub mod library;
 mod outline_file;
 pub(crate) mod problem_keys;
@@ -154,7 +156,14 @@ impl Case {
     /// # Errors
     /// When a value cannot be written as TOML.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string_pretty(self)
+        if self.left_out.is_empty() {
+            return toml::to_string_pretty(self);
+        }
+        let mut table = toml::Table::try_from(self)?;
+        for name in &self.left_out {
+            table.remove(*name);
+        }
+        toml::to_string_pretty(&table)
     }
 }
 
@@ -242,7 +251,10 @@ impl UntypedCase {
         probe_line::resolve(&mut self.root).map_err(wrong)?;
         midline_file::resolve(&mut self.root).map_err(wrong)?;
         stroke_file::resolve(&mut self.root).map_err(wrong)?;
-        let mut case = typed(&self.root)?;
+        calibrated_file::resolve(&mut self.root).map_err(wrong)?;
+        let (complete, left_out) = left_out::completed(&self.root).map_err(wrong)?;
+        let mut case = typed(&complete)?;
+        case.left_out = left_out;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;
         surface_file::read_into(&mut case, &self.root).map_err(wrong)?;
         complete_periodic(&mut case);

@@ -3,7 +3,8 @@
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 33] = [
+pub const CHOICES: [&str; 34] = [
+    "drive",
     "kind",
     "length",
     "angle",

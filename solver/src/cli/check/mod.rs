@@ -75,7 +75,7 @@ fn check_one(argument: &str, settings: &[String], depth: Depth) -> Result<(), Fa
         let _ = write!(text, "\n{line}\n");
     }
     say(text.trim_end());
-    if depth >= Depth::Mesh {
+    if depth >= Depth::Mesh && !file.case().is_reduced_only() {
         match file.case().geometry.dimensions() {
             2 => tell_of_mesh::<2>(&file, depth)?,
             _ => tell_of_mesh::<3>(&file, depth)?,

@@ -24,7 +24,8 @@ A search that was stopped or killed goes on when it is called again, from the ev
 search.journal, and ends with the same bits.
 
 Its directory gets case.toml, the case with what was found, which runs as it stands there, and
-report.json: each number with its bounds and how well it is determined.")]
+report.json: each number with its bounds and how well it is determined. A calibration of a reduced model
+writes calibrated.toml instead: coefficients, how well each is determined, and errors by run and quantity.")]
 pub struct SearchOptions {
     /// Which case
     #[arg(add = complete::case())]
@@ -40,6 +41,28 @@ pub struct SearchOptions {
     /// No progress on the terminal
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+impl SearchOptions {
+    /// Which case.
+    pub fn case(&self) -> &str {
+        &self.case
+    }
+
+    /// Keys that are set.
+    pub fn set(&self) -> &[String] {
+        &self.settings.set
+    }
+
+    /// Where it is written, if that is said.
+    pub fn out(&self) -> Option<&Path> {
+        self.out.as_deref()
+    }
+
+    /// Whether what is finished is replaced.
+    pub fn overwrites(&self) -> bool {
+        self.overwrite
+    }
 }
 
 /// Seeks what a case asks for.

@@ -49,6 +49,11 @@ fn is_driven(model: &Model) -> bool {
                 || field_drives(model, own)
         })
         || model.joints.iter().any(|joint| joint_drives(model, joint))
+        || case
+            .reduced
+            .iter()
+            .flat_map(|reduced| &reduced.thruster)
+            .any(|one| any(&one.drive.range()))
         || may_touch(model)
 }
 

@@ -1,6 +1,12 @@
 //! Cases by their reduced model: ways, names, balances, what is refused, and the command.
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
 
+mod calibration;
+mod guided;
+mod mutations;
+mod tables;
+mod vehicle;
+
 use std::process::Command;
 
 use alewife::case::{Case, CaseFile, Severity, check, check_reduced, known_quantities};
