@@ -26,7 +26,6 @@ mod verify;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use alewife_reduced::tier::Which;
 use clap::{CommandFactory, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 

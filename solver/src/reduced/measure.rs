@@ -48,7 +48,7 @@ pub(super) fn is_load(source: Source) -> bool {
                 | SwimmerQuantity::CyclePower
                 | SwimmerQuantity::CycleCostOfTransport
         ),
-        Source::Probe(..) | Source::Flow(_) | Source::Side(..) => true,
+        Source::Probe(..) | Source::Tracer(..) | Source::Flow(_) | Source::Side(..) => true,
     }
 }
 
