@@ -14,6 +14,7 @@ pub(crate) mod read_mesh;
 pub(crate) mod recording;
 mod reference_rows;
 mod reference_table;
+mod region_file;
 pub(crate) mod schema;
 mod stroke_file;
 mod surface_file;
@@ -236,8 +237,10 @@ impl UntypedCase {
         }
         outline_file::resolve(&mut self.root).map_err(wrong)?;
         stroke_file::resolve(&mut self.root).map_err(wrong)?;
+        region_file::resolve(&mut self.root).map_err(wrong)?;
         let mut case = typed(&self.root)?;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;
+        region_file::read_into(&mut case, &self.root).map_err(wrong)?;
         surface_file::read_into(&mut case, &self.root).map_err(wrong)?;
         complete_periodic(&mut case);
         complete_cylinders(&mut case);

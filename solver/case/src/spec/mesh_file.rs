@@ -44,7 +44,8 @@ impl PartialEq for MeshFile {
 /// What a file holds.
 #[derive(Debug)]
 pub(crate) struct Contents {
-    bytes: Vec<u8>,
+    /// Content of the file; `None` of a mesh that was made.
+    bytes: Option<Vec<u8>>,
     mesh: GivenMesh,
     sides: Vec<NamedSide>,
     extent: Extent,
@@ -75,20 +76,27 @@ impl Contents {
     ) -> Result<Self, MshError> {
         if dimensions == 2 {
             let read = read_msh_with::<2>(&bytes, options)?;
-            let mut contents = Self::of(bytes, &read.mesh, GivenMesh::Planar(read.mesh.clone()));
+            let mut contents =
+                Self::of(Some(bytes), &read.mesh, GivenMesh::Planar(read.mesh.clone()));
             contents.notes = read.notes;
             Ok(contents)
         } else {
             let read = read_msh_with::<3>(&bytes, options)?;
             let imported = Imported::new(read.mesh);
             let mut contents =
-                Self::of(bytes, imported.mesh(), GivenMesh::Spatial(imported.clone()));
+                Self::of(Some(bytes), imported.mesh(), GivenMesh::Spatial(imported.clone()));
             contents.notes = read.notes;
             Ok(contents)
         }
     }
 
-    fn of<const D: usize>(bytes: Vec<u8>, from: &Mesh<D>, mesh: GivenMesh) -> Self {
+    /// A mesh that was made inside a surface.
+    pub(crate) fn of_region(mesh: Mesh<3>) -> Self {
+        let imported = Imported::new(mesh);
+        Self::of(None, imported.mesh(), GivenMesh::Spatial(imported.clone()))
+    }
+
+    fn of<const D: usize>(bytes: Option<Vec<u8>>, from: &Mesh<D>, mesh: GivenMesh) -> Self {
         let sides = from.boundaries.iter().enumerate().map(|(index, boundary)| NamedSide {
             name: boundary.name.clone(),
             shape: from.side_shape(BoundaryId::new(index)),
@@ -107,6 +115,12 @@ impl Contents {
 }
 
 impl MeshFile {
+    /// A mesh that was made inside a surface.
+    pub(crate) fn of_region(contents: Arc<Contents>) -> Self {
+        let contents = Some(contents);
+        Self { file: String::new(), scale: 1.0, sides: Vec::new(), checksum: None, contents }
+    }
+
     fn named_sides(&self) -> &[NamedSide] {
         self.contents.as_ref().map_or(&[], |contents| contents.sides.as_slice())
     }
@@ -166,9 +180,9 @@ impl MeshFile {
         }
     }
 
-    /// The content of the file.
+    /// The content of the file; `None` of a mesh that was made inside a surface.
     #[must_use]
     pub fn bytes(&self) -> Option<&[u8]> {
-        self.contents.as_ref().map(|contents| contents.bytes.as_slice())
+        self.contents.as_ref()?.bytes.as_deref()
     }
 }
