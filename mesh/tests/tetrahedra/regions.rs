@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::spatial::{Region, TriangleMesh, generate_inside};
+use alewife_mesh::spatial::{NamedTriangles, Region, TriangleMesh, generate_inside};
 use alewife_mesh::{BoundaryId, Mesh, Point, Quality, Sizing, check_mesh};
 use nalgebra::{Rotation3, Vector3};
 
@@ -128,4 +128,21 @@ fn a_wedge_is_meshed_up_to_its_edge() {
     let corners = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.2]];
     let mesh = meshed(&Sides::prism(&corners, 1.0, 1, [0.5, 0.3]).region(20.0), 0.25);
     assert!((mesh.measure() - 1.2).abs() < 1e-9);
+}
+
+/// Edges of 30 and 46 degrees between tubes and a ball, and one between two tubes that fades out.
+#[test]
+fn a_vessel_that_branches_keeps_the_edges_of_its_junction() {
+    let bytes = std::fs::read("../cases/vessel-surface/vessel.obj").expect("it is shipped");
+    let NamedTriangles { mesh, groups } = NamedTriangles::read(&bytes).expect("it is one");
+    let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
+    assert_eq!(names, ["inlet", "upper", "lower", "wall"]);
+    let sides = groups.iter().enumerate().flat_map(|(nth, group)| vec![nth; group.n]).collect();
+    let region = Region::new(mesh, names, sides, 20.0).expect("it is closed");
+    let mesh = meshed(&region, 0.45);
+    assert!((mesh.measure() / region.volume() - 1.0).abs() < 2e-3);
+    for (side, radius) in [(0, 1.0_f64), (1, 0.8), (2, 0.8)] {
+        let off = area(&mesh, side).norm() / (PI * radius * radius) - 1.0;
+        assert!(off.abs() < 2e-3, "{side}: {off}");
+    }
 }

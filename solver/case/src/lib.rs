@@ -76,6 +76,7 @@ pub use spec::reduced::parts::{
     BuoyancySpec, CalibratedSpec, ConnectionSpec, LagSpec, ThrusterSpec,
 };
 pub use spec::reduced::{AddedMassSpec, ReducedSpec};
+pub use spec::region::{NamedSolid, RegionSpec, SidePart};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };

@@ -117,6 +117,14 @@ fn domain(case: &Case) -> String {
                 _ => format!("of volume {}", significant(file.measure())),
             }
         ),
+        DomainSpec::Surface(region) => match region.mesh() {
+            Some(mesh) => format!(
+                "inside of a closed surface, of volume {}, first meshed by {} cells",
+                significant(mesh.measure()),
+                mesh.n_cells()
+            ),
+            None => "inside of a closed surface".to_owned(),
+        },
         DomainSpec::Disc { radius, .. } => format!("disc of radius {}", significant(*radius)),
         DomainSpec::HalfDisc { radius, .. } | DomainSpec::Sphere { radius, .. } => {
             format!("ball of radius {}", significant(*radius))

@@ -44,7 +44,8 @@ impl PartialEq for MeshFile {
 /// What a file holds.
 #[derive(Debug)]
 pub(crate) struct Contents {
-    bytes: Vec<u8>,
+    /// Content of the file; `None` of a mesh that was made.
+    bytes: Option<Vec<u8>>,
     mesh: GivenMesh,
     sides: Vec<NamedSide>,
     extent: Extent,
@@ -75,15 +76,21 @@ impl Contents {
     ) -> Result<Self, MshError> {
         if dimensions == 2 {
             let read = DomainMesh::<2>::read(&bytes, options)?;
-            Ok(Self::of(bytes, &read, GivenMesh::Planar(read.mesh.clone())))
+            Ok(Self::of(Some(bytes), &read, GivenMesh::Planar(read.mesh.clone())))
         } else {
             let read = DomainMesh::<3>::read(&bytes, options)?;
             let imported = Imported::new(read.mesh.clone());
-            Ok(Self::of(bytes, &read, GivenMesh::Spatial(imported)))
+            Ok(Self::of(Some(bytes), &read, GivenMesh::Spatial(imported)))
         }
     }
 
-    fn of<const D: usize>(bytes: Vec<u8>, from: &DomainMesh<D>, mesh: GivenMesh) -> Self {
+    /// A mesh that was made inside a surface.
+    pub(crate) fn of_region(mesh: Mesh<3>) -> Self {
+        let imported = Imported::new(mesh.clone());
+        Self::of(None, &DomainMesh::of(mesh), GivenMesh::Spatial(imported))
+    }
+
+    fn of<const D: usize>(bytes: Option<Vec<u8>>, from: &DomainMesh<D>, mesh: GivenMesh) -> Self {
         let sides = from.mesh.boundaries.iter().zip(&from.sides);
         let sides =
             sides.map(|(boundary, shape)| NamedSide { name: boundary.name.clone(), shape: *shape });
@@ -101,6 +108,12 @@ impl Contents {
 }
 
 impl MeshFile {
+    /// A mesh that was made inside a surface.
+    pub(crate) fn of_region(contents: Arc<Contents>) -> Self {
+        let contents = Some(contents);
+        Self { file: String::new(), scale: 1.0, sides: Vec::new(), checksum: None, contents }
+    }
+
     fn named_sides(&self) -> &[NamedSide] {
         self.contents.as_ref().map_or(&[], |contents| contents.sides.as_slice())
     }
@@ -160,9 +173,9 @@ impl MeshFile {
         }
     }
 
-    /// The content of the file.
+    /// The content of the file; `None` of a mesh that was made inside a surface.
     #[must_use]
     pub fn bytes(&self) -> Option<&[u8]> {
-        self.contents.as_ref().map(|contents| contents.bytes.as_slice())
+        self.contents.as_ref()?.bytes.as_deref()
     }
 }

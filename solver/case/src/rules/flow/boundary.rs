@@ -58,7 +58,7 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         DomainSpec::Box { .. } | DomainSpec::Channel { .. } => false,
         DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. } | DomainSpec::Sphere { .. } => true,
         DomainSpec::Cylinder { .. } => side == "wall" && !is_axisymmetric,
-        DomainSpec::Mesh(_) => {
+        DomainSpec::Mesh(_) | DomainSpec::Surface(_) => {
             given_mesh::check_side(findings, key, side, condition);
             check_developed(findings, key, condition);
             check_factor_of(findings, key, condition);
