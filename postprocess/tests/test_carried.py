@@ -106,6 +106,22 @@ def test_flows_in_time_are_of_second_order_in_the_time_between_files(
     assert errors[-1] < 1e-3
 
 
+def test_small_cells_count_where_they_are_in_time(tmp_path: Path) -> None:
+    frames = []
+    for time, size in ((0.0, 1.0), (1.0, 1.0), (2.0, 1e-7), (3.0, 1e-7)):
+        nodes, cells = meshes.rectangle((6, 5), size * SQUARE[0], size * SQUARE[1])
+        frames.append((time, nodes, cells, np.tile([1.0, 0.0], (len(nodes), 1)), 0 * nodes[:, 0]))
+    run = meshes.written(tmp_path / "run", frames, TOP.format(2.0, "unsteady", ""))
+    seeds = np.array([[-0.5, 0.0]])
+    found = carried.carried(run, seeds, start=0.0, end=0.9)
+    assert found.place[-1, 0] == pytest.approx([0.4, 0.0])
+    where = r"cells of 3.33e-08 in .*000002.vtu, t = 2: --from and --to"
+    with pytest.raises(ValueError, match=r"between t = 1.*" + where):
+        carried.carried(run, seeds, start=0.0, end=1.5)
+    with pytest.raises(ValueError, match=r"--step sets another one than 1e-06"):
+        carried.carried(run, seeds, start=0.0, end=1.5, step=1e-6)
+
+
 def test_particles_released_again_make_a_streak_line(tmp_path: Path) -> None:
     run = unsteady(tmp_path / "run", 20, moves=False, remeshes=False)
     found = carried.carried(
