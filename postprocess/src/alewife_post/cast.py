@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -75,7 +74,7 @@ class Cast:
         if request.trails:
             self._add_trails(plotter, moment.time)
         if request.particles is not None:
-            self._add_particles(plotter, request.particles, moment.time)
+            self._add_particles(plotter, request, moment.time)
 
     def _needs_mesh(self, names: list[str], time: float) -> bool:
         """Whether a body has a shape that only the mesh knows."""
@@ -121,12 +120,15 @@ class Cast:
             mesh, scalars="colour", rgb=True, smooth_shading=True, render=False, **style.SOLID
         )
 
-    def _add_particles(self, plotter: pyvista.Plotter, path: Path, time: float) -> None:
+    def _add_particles(self, plotter: pyvista.Plotter, request: Request, time: float) -> None:
         import pyvista
 
         if self.tracks is None:
-            self.tracks = tracers.read_paths(path)
-        lines, heads = self.tracks.shown(self.run, time)
+            self.tracks = tracers.read_paths(request.particles)
+        if request.is_still:
+            lines, heads = self.tracks.still(self.run, time if self.run.is_unsteady else None)
+        else:
+            lines, heads = self.tracks.shown(self.run, time)
         look = {"color": style.PARTICLE, "lighting": False, "render": False}
         for line in lines:
             plotter.add_mesh(pyvista.lines_from_points(line), line_width=2.0, **look)

@@ -63,6 +63,7 @@ def images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]
                 request.quantity,
                 (_samples(run, moment, seen(nth), request) for nth, moment in enumerate(moments)),
                 units,
+                scale=request.scale,
             )
             colour_map, limits = bar.colour_map, bar.limits
         is_mirrored = run.is_axisymmetric and request.mirror

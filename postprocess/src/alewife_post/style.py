@@ -178,6 +178,27 @@ def colours(
     return look.one_sided, (low, high if high > low else low + 1.0)
 
 
+@dataclass(frozen=True)
+class Scale:
+    """Colours as they are asked for; what is not follows the values."""
+
+    limits: Limits | None = None
+    colour_map: str | None = None
+    """A name of matplotlib."""
+    contours: int = 0
+    """Bands of one colour each between the limits, drawn as lines and areas; smooth if zero."""
+
+    def colours(
+        self, quantity: str, values: Array, share: Array | None = None, tail: float | None = None
+    ) -> tuple[str, Limits]:
+        """Colour map and limits, likewise."""
+        colour_map, limits = colours(quantity, values, share, tail)
+        return self.colour_map or colour_map, self.limits or limits
+
+
+FREE = Scale()
+
+
 def beyond(quantity: str, limits: Limits, ends: Limits, tail: float | None = None) -> str:
     """What the limits of colours leave out, for a legend, and how far that goes."""
     low, high = limits
