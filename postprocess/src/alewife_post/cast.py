@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 Array = np.ndarray
 
+THICK = 0.0016
+"""Radius of ways of particles in a picture over the length in view."""
+
 
 class Cast:
     """Bodies of a run as surfaces, and what shows their motion."""
@@ -74,7 +77,7 @@ class Cast:
         if request.trails:
             self._add_trails(plotter, moment.time)
         if request.particles is not None:
-            self._add_particles(plotter, request, moment.time)
+            self._add_particles(plotter, request, moment.time, extent)
 
     def _needs_mesh(self, names: list[str], time: float) -> bool:
         """Whether a body has a shape that only the mesh knows."""
@@ -120,7 +123,9 @@ class Cast:
             mesh, scalars="colour", rgb=True, smooth_shading=True, render=False, **style.SOLID
         )
 
-    def _add_particles(self, plotter: pyvista.Plotter, request: Request, time: float) -> None:
+    def _add_particles(
+        self, plotter: pyvista.Plotter, request: Request, time: float, extent: float
+    ) -> None:
         import pyvista
 
         if self.tracks is None:
@@ -130,6 +135,18 @@ class Cast:
         else:
             lines, heads = self.tracks.shown(self.run, time)
         look = {"color": style.PARTICLE, "lighting": False, "render": False}
+        if request.is_still:
+            # As thick as they look at any number of pixels, and above a plane they are in
+            size = THICK * extent
+            tubes = [pyvista.lines_from_points(line).tube(radius=size) for line in lines]
+            if tubes:
+                plotter.add_mesh(pyvista.merge(tubes), **look)
+            if len(heads):
+                balls = pyvista.PolyData(heads).glyph(
+                    geom=pyvista.Sphere(radius=2.2 * size), scale=False, orient=False
+                )
+                plotter.add_mesh(balls, **look)
+            return
         for line in lines:
             plotter.add_mesh(pyvista.lines_from_points(line), line_width=2.0, **look)
         if len(heads):

@@ -140,6 +140,9 @@ def _still(run: Run, options: argparse.Namespace) -> Figure:
 def _filmed(options: argparse.Namespace) -> str:
     if options.iso:
         return "iso"
+    if options.particles and not options.quantity:
+        # A plane would hide those that are behind it, or in it
+        return "bodies"
     return options.quantity or ("pressure" if options.surface else "speed")
 
 

@@ -134,7 +134,8 @@ def panels(
     if values is not None:
         frame = wanted[0][1].frame
         own = rows[0] if len(parts) == 1 else list(rows)
-        colour_bar(own, values, colour_map, limits, contours=scale.contours).set_label(
+        bands = 0 if quantity in traction.QUANTITIES else scale.contours
+        colour_bar(own, values, colour_map, limits, contours=bands).set_label(
             style.label(quantity, parts[0].run.units)
             + ("" if frame is None else f" relative to {frame}")
         )
@@ -220,7 +221,7 @@ def _draw(axes: Axes, part: _Part, asked: Shown, colours: tuple[str, style.Limit
     if part.tracks is not None:
         time = field.time if run.is_unsteady else None
         ways, heads = part.tracks.still(run, time)
-        colour = style.STREAMLINE if quantity == "speed" else style.STREAMLINE_ON_LIGHT
+        colour = style.line_colour(quantity, colour_map)
         drawing.draw_particles(axes, ways, heads, colour, is_mirrored=is_mirrored)
     # Half the width of an outline at the end of a view would be cut off
     room = MARGIN * max(view[1] - view[0], view[3] - view[2])

@@ -96,7 +96,7 @@ def slice_picture(
     axes = figure.add_subplot()
     axes.set_aspect("equal")
     _paint(axes, part, cut, (colour_map, limits, scale.contours), painter)
-    _draw_lines(axes, run, field, cut, (quantity, lines))
+    _draw_lines(axes, run, field, cut, (quantity, lines, colour_map))
     for section in sections.sections(run, field, plane_of, region):
         axes.fill(*plane_of.coordinates(section).T, color=style.BODY, zorder=3.5)
     sides = [
@@ -143,12 +143,12 @@ def _paint(
         drawing.shade(axes, triangles, values, colour_map, limits)
 
 
-def _draw_lines(axes: Axes, run: Run, field: Field, cut: Cut, what: tuple[str, str]) -> None:
+def _draw_lines(axes: Axes, run: Run, field: Field, cut: Cut, what: tuple[str, str, str]) -> None:
     """Streamlines or arrows of the velocity in a plane, over a quantity."""
-    quantity, lines = what
+    quantity, lines, colour_map = what
     if lines == "none":
         return
-    colour = style.STREAMLINE if quantity == "speed" else style.STREAMLINE_ON_LIGHT
+    colour = style.line_colour(quantity, colour_map)
     view = (cut.low[0], cut.high[0], cut.low[1], cut.high[1])
     x, y = _grid_lines(view)
     at = cut.plane.points(np.stack(np.meshgrid(x, y), axis=-1))

@@ -83,7 +83,7 @@ def paint(
         drawing.draw_edges(axes, field)
     else:
         drawing.draw_values(axes, field, values, look.colour_map, look.limits, look.contours)
-    colour = style.STREAMLINE if look.quantity == "speed" else style.STREAMLINE_ON_LIGHT
+    colour = style.line_colour(look.quantity, look.colour_map)
     if lines is not None:
         drawing.draw_streamlines(axes, lines, view, colour)
     elif look.lines == "streamlines":

@@ -57,6 +57,7 @@ def scene_picture(
             usual,
             colour_map=scale.colour_map or usual.colour_map,
             limits=scale.limits or usual.limits,
+            is_asked=scale.limits is not None,
         )
     return figure_of(run, shown, look_from=look_from, quantity=quantity)
 
@@ -167,5 +168,6 @@ def _add_bar(
     note = style.beyond(name, scale.limits, scale.ends, scale.tail)
     if note != style.ALL:
         left_out, _, upto = note.removeprefix("limits leave out ").partition(", up to ")
+        left_out = "values" if scale.is_asked else left_out
         axes.text(0.0, 1.06, f"{left_out.replace(' at each end', '')}\nbeyond, to {upto}",
                   transform=axes.transAxes, fontsize=5.5, va="bottom")  # fmt: skip

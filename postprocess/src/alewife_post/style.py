@@ -38,6 +38,9 @@ ISO_OPACITY = 0.4
 SOLID = {"ambient": 0.35, "diffuse": 0.7, "specular": 0.15}
 """How surfaces in space take light."""
 
+LIGHT = 0.6
+"""Brightness of colours over which light lines are not seen."""
+
 DPI = 200
 LARGEST = (7.2, 5.2)
 """Largest width and height of the axes of a picture (inches)."""
@@ -197,6 +200,18 @@ class Scale:
 
 
 FREE = Scale()
+
+
+def line_colour(quantity: str, colour_map: str) -> str:
+    """Of lines over a field: light ones over speed, unless its colours are a light map."""
+    if quantity != "speed":
+        return STREAMLINE_ON_LIGHT
+    looks = LOOKS[quantity]
+    if colour_map in (looks.one_sided, looks.two_sided):
+        return STREAMLINE
+    # Most of a fluid is slow, and lines are seen where it is not as well
+    shades = matplotlib.colormaps[colour_map]([0.1, 0.35])[:, :3] @ [0.299, 0.587, 0.114]
+    return STREAMLINE_ON_LIGHT if shades.mean() > LIGHT else STREAMLINE
 
 
 def beyond(quantity: str, limits: Limits, ends: Limits, tail: float | None = None) -> str:
