@@ -24,6 +24,9 @@ CASE = """
 title = "A disc in a shear"
 geometry = "{geometry}"
 units = "SI"
+[fluid]
+model = "stokes"
+viscosity = 1.0
 [domain.disc]
 radius = 2.0
 [[body]]

@@ -106,6 +106,22 @@ def test_flows_in_time_are_of_second_order_in_the_time_between_files(
     assert errors[-1] < 1e-3
 
 
+def test_small_cells_count_where_they_are_in_time(tmp_path: Path) -> None:
+    frames = []
+    for time, size in ((0.0, 1.0), (1.0, 1.0), (2.0, 1e-7), (3.0, 1e-7)):
+        nodes, cells = meshes.rectangle((6, 5), size * SQUARE[0], size * SQUARE[1])
+        frames.append((time, nodes, cells, np.tile([1.0, 0.0], (len(nodes), 1)), 0 * nodes[:, 0]))
+    run = meshes.written(tmp_path / "run", frames, TOP.format(2.0, "unsteady", ""))
+    seeds = np.array([[-0.5, 0.0]])
+    found = carried.carried(run, seeds, start=0.0, end=0.9)
+    assert found.place[-1, 0] == pytest.approx([0.4, 0.0])
+    where = r"cells of 3.33e-08 in .*000002.vtu, t = 2: --from and --to"
+    with pytest.raises(ValueError, match=r"between t = 1.*" + where):
+        carried.carried(run, seeds, start=0.0, end=1.5)
+    with pytest.raises(ValueError, match=r"--step sets another one than 1e-06"):
+        carried.carried(run, seeds, start=0.0, end=1.5, step=1e-6)
+
+
 def test_particles_released_again_make_a_streak_line(tmp_path: Path) -> None:
     run = unsteady(tmp_path / "run", 20, moves=False, remeshes=False)
     found = carried.carried(
@@ -226,3 +242,46 @@ def test_a_film_in_space_shows_particles(tmp_path: Path) -> None:
     red = (np.abs(images[1] - [255, 111, 89]).sum(axis=2) < 60).sum()
     assert red > 20
     assert (np.abs(images[0] - [255, 111, 89]).sum(axis=2) < 60).sum() == 0
+
+
+def test_pictures_have_whole_paths_and_streak_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    box = np.array([[0.0, 0.0], [3.0, 1.0]])
+    run = steady(tmp_path / "run", lambda x, y: np.stack([4 * y * (1 - y), 0 * y], 1), box)
+    seeds = np.array([[0.5, 0.1], [0.5, 0.5]])
+    found = carried.carried(run, seeds, start=0.0, end=4.0, step=0.05, outputs=20)
+    tracers.write_paths(run, found, tmp_path / "paths")
+    tracks = tracers.read_paths(tmp_path / "paths")
+    lines, heads = tracks.still(run, None)
+    # The faster one has left, and its path is there nevertheless
+    assert [line[0, 0] for line in lines] == [0.5, 0.5]
+    assert lines[1][-1, 0] == pytest.approx(2.9, abs=0.11)
+    assert len(heads) == 1
+    assert heads[0, :2] == pytest.approx([0.5 + 4 * 0.36, 0.1])
+    lines, _ = tracks.still(run, 1.1)
+    assert lines[1][-1, 0] == pytest.approx(1.6)
+    given = ["picture", str(run.path), "--particles", str(tmp_path / "paths")]
+    for name in ("a.png", "a.svg", "a.pdf"):
+        assert main([*given, "--out", str(tmp_path / name), "--contours", "8"]) == 0
+    assert "<image" not in (tmp_path / "a.svg").read_text()
+    capsys.readouterr()
+    film = ["film", *given[1:], "--out", str(tmp_path / "a.gif")]
+    assert main(film) == 2
+    assert f"picture {run.path} --particles {tmp_path / 'paths'}" in capsys.readouterr().err
+
+
+def test_a_picture_at_a_time_without_particles_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = unsteady(tmp_path / "run", 10, moves=False, remeshes=False)
+    found = carried.carried(
+        run, np.array([[0.0, 0.0]]), start=0.0, end=1.0, step=0.1, release=0.1, outputs=10
+    )
+    tracers.write_paths(run, found, tmp_path / "paths")
+    given = ["picture", str(run.path), "--particles", str(tmp_path / "paths"), "--out"]
+    assert main([*given, str(tmp_path / "a.png"), "--time", "1.0"]) == 0
+    assert main([*given, str(tmp_path / "a.png")]) == 2
+    assert "known from t = 0 to 1" in capsys.readouterr().err
+    (line,), heads = tracers.read_paths(tmp_path / "paths").still(run, 1.0)
+    assert len(line) == len(heads) == 10

@@ -10,6 +10,39 @@ from alewife_post import compare, open_run, series, sweeps
 TIME = np.linspace(0.0, 1.0, 5)
 
 
+def held(path: Path, columns: dict[str, float]) -> Path:
+    """A steady run with columns of one row."""
+    write(path, 1.0, "")
+    header, row = ",".join(["time", *columns]), ",".join(map(repr, [0.0, *columns.values()]))
+    (path / "series.csv").write_text(f"{header}\n{row}\n")
+    return path
+
+
+def test_columns_of_zeros_are_not_drawn_unless_asked_for(tmp_path: Path) -> None:
+    zero = {"ball.velocity.x": 0.0, "ball.velocity.y": 1e-20, "ball.lift_coefficient": 3e-15}
+    drags = (7.0, 4.0, 3.0)
+    runs = [
+        open_run(held(tmp_path / f"{drag}", {**zero, "ball.drag_coefficient": drag}))
+        for drag in drags
+    ]
+    points = [([float(n)], run) for n, run in enumerate(runs)]
+    sweep = compare.Sweep(tmp_path, ["fluid.viscosity"], points)
+    assert series.in_common(runs) == ["ball.drag_coefficient"]
+    assert sweeps.chosen_names(sweep, []) == ["ball.drag_coefficient"]
+    assert sweeps.chosen_names(sweep, ["lift_coefficient"]) == ["ball.lift_coefficient"]
+
+
+def test_where_all_that_is_usual_is_zero_what_differs_is_drawn(tmp_path: Path) -> None:
+    columns = {"ball.velocity.x": 0.0, "ball.drag_coefficient": 0.0, "flow.mass_defect": 1e-9}
+    runs = [
+        open_run(held(tmp_path / f"{n}", {**columns, "ball.power": 1.0, "ball.torque": n}))
+        for n in (1.0, 2.0)
+    ]
+    assert series.in_common(runs) == ["ball.torque"]
+    # And where nothing differs, what is usual
+    assert series.in_common(runs[:1]) == ["ball.drag_coefficient"]
+
+
 def write(path: Path, viscosity: float, bodies: str) -> Path:
     """A run of some bodies, named by a letter each, without references."""
     path.mkdir(parents=True)

@@ -30,6 +30,13 @@ def test_quantities_are_found_by_name_ending_pattern_and_difference() -> None:
     np.testing.assert_array_equal(line.values, [0.5, 1.5, 2.5])
 
 
+def test_names_that_begin_so_are_suggested_first() -> None:
+    columns = dict.fromkeys(["ball.angle", "ball.x", "ball.y", "ball.drag_coefficient"], np.ones(2))
+    for part in ("ball.drag", "drag", "DRAG"):
+        with pytest.raises(KeyError, match=rf"no quantity {part}; nearest: ball.drag_coefficient$"):
+            asked.lines(columns, part)
+
+
 def test_the_nearest_names_are_suggested() -> None:
     with pytest.raises(KeyError, match=r"no quantity velocty.y; nearest: .*a.velocity.y"):
         asked.lines(SERIES, "velocty.y")

@@ -54,8 +54,8 @@ def test_the_traction_on_a_sphere_is_of_second_order(tmp_path: Path, model: str)
     errors, forces = [], []
     for n in (8, 16, 32):
         run = sphere(tmp_path / f"{model}-{n}", n, model)
-        ball, sides = traction.surfaces_of(run, run.field())
-        assert (ball.facets.name, sides.facets.name) == ("ball", traction.SIDES)
+        ball, wall = traction.surfaces_of(run, run.field())
+        assert (ball.facets.name, wall.facets.name) == ("ball", "wall")
         assert ball.method == ("residual" if model == "stokes" else "recovered")
         assert np.linalg.norm(ball.normal - run.field().nodes[ball.nodes], axis=1).max() < 5 / n**2
         exact = np.array([-1.5 * VISCOSITY, 0.0])
@@ -129,10 +129,15 @@ def test_tractions_in_space_add_up_to_the_divergence_of_the_stress(tmp_path: Pat
     # Plane Poiseuille flow, whose pressure carries its shear: no force on a cube of fluid
     velocity = np.stack([y**2, 0 * x, 0 * x], 1)
     run = meshes.written(tmp_path / "run", [(0.0, nodes, cells, velocity, 2 * VISCOSITY * x)], top)
-    ball, _ = traction.surfaces_of(run, run.field())
+    ball, *sides = traction.surfaces_of(run, run.field())
+    assert {side.facets.name for side in sides} == {
+        "left", "right", "bottom", "top", "back", "front",
+    }  # fmt: skip
     assert len(ball.facets.nodes) == 6 * 2 * 4
     assert ball.force == pytest.approx(np.zeros(3), abs=1e-11)
     # In the middle of the top of the cube
+    # A cube has edges: three normals at each corner, two on each edge
+    assert len(ball.nodes) == 6 * 25
     away = run.field().nodes[ball.nodes] - [1.5, 2.0, 1.5]
     (top_node,) = np.flatnonzero(np.abs(away).max(axis=1) < 1e-9)
     assert ball.normal[top_node] == pytest.approx([0.0, 1.0, 0.0])
@@ -142,11 +147,13 @@ def test_tractions_of_a_computed_flow_add_up_to_its_force(
     computed_run: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["fields", str(computed_run.path), "--out", str(tmp_path / "out"), "--json"]) == 0
-    (row,) = json.loads(capsys.readouterr().out)
+    row, side = json.loads(capsys.readouterr().out)
     largest = max(
         float(np.abs(one.traction).max())
         for one in traction.surfaces_of(computed_run, computed_run.field())
     )
+    assert (row["surface"], row["is"]) == ("squirmer", "body")
+    assert (side["surface"], side["is"], side["method"]) == ("wall", "side", "recovered")
     assert row["method"] == "residual"
     assert abs(row["traction.x"] - row["force.x"]) < 1e-10 * largest
 
@@ -170,7 +177,7 @@ def test_files_have_all_fields(tmp_path: Path) -> None:
         "pressure",
         "body",
     } <= set(surface.point_data.keys())
-    assert list(surface.field_data["bodies"]) == ["ball", "sides"]
+    assert list(surface.field_data["surfaces"]) == ["ball", "wall"]
     # Stokes's stream function of the moving sphere, across the whole flow
     r = np.linalg.norm(fluid.points[:, :2], axis=1)
     exact = 0.25 * (3 * r - 1 / r) * (fluid.points[:, 1] / r) ** 2

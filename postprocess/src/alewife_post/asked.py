@@ -101,8 +101,14 @@ def unknown(kind: str, name: str, known: Iterable[str]) -> str:
         return f"no {kind} {name}: there is none"
     # A name may be right but for its body, or but for its component.
     ends = {one: one.split(".", 1)[-1] for one in known}
-    close = difflib.get_close_matches(name, known, SHOWN, 0.6)
-    close += [one for one in known if ends[one] in difflib.get_close_matches(name, ends.values())]
+    # What is written in part comes before what is written wrongly
+    begun = name.lower()
+    close = [one for one in known if begun and one.lower().startswith(begun)]
+    close += [one for one in known if begun and ends[one].lower().startswith(begun)]
+    if not close:
+        near = difflib.get_close_matches(name, ends.values())
+        close = difflib.get_close_matches(name, known, SHOWN, 0.6)
+        close += [one for one in known if ends[one] in near]
     close += [one for one in known if name and name.lower() in one.lower()]
     close = list(dict.fromkeys(close))[:SHOWN]
     if close:

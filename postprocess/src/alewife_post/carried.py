@@ -67,6 +67,7 @@ class StoredFlow:
         self.read = lru_cache(KEPT_FIELDS)(self._read)
         self.cells = lru_cache(2 * KEPT_FIELDS)(self._cells)
         self.mixed = lru_cache(KEPT_FIELDS)(self._mixed)
+        self.crossing = lru_cache(None)(self._crossing)
         self.before: Array | None = None
 
     def _read(self, number: int) -> Field:
@@ -131,17 +132,23 @@ class StoredFlow:
         velocity = cells.field.velocity
         return cells.at(found, velocity), cells.gradient(found, velocity)
 
-    def usual_step(self) -> float:
-        """Time in which the fluid crosses a part of a cell, in the first and in the last file."""
-        found = []
-        for number in {0, len(self.times) - 1}:
-            field = self.read(number)
-            size = np.ptp(field.nodes[field.cells], axis=1).min(axis=1)
-            fast = speed(field.velocity)[field.cells].max(axis=1)
-            crossing = size[fast > 0.0] / fast[fast > 0.0]
-            if len(crossing):
-                found.append(STEP * float(np.percentile(crossing, FAST)))
-        return min(found, default=np.inf)
+    def _crossing(self, number: int) -> tuple[float, float]:
+        """Time in which the fluid of a file crosses a part of a cell, and the size of that cell."""
+        field = self.read(number)
+        size = np.ptp(field.nodes[field.cells], axis=1).min(axis=1)
+        fast = speed(field.velocity)[field.cells].max(axis=1)
+        moving = np.flatnonzero(fast > 0.0)
+        if not len(moving):
+            return np.inf, np.inf
+        crossing = size[moving] / fast[moving]
+        wanted = float(np.percentile(crossing, FAST))
+        nearest = moving[np.argmin(np.abs(crossing - wanted))]
+        return STEP * wanted, float(size[nearest])
+
+    def usual_step(self, time: float) -> tuple[float, int]:
+        """The step around a time, of the two files beside it, and the file that has it."""
+        first, last, _ = self.around(time)
+        return min((self.crossing(number)[0], number) for number in (first, last))
 
 
 OWN = ("field", "case")
@@ -160,9 +167,9 @@ def carried(
     """Follow particles from places `(n, d)` and a time to another one, which may be earlier.
 
     By the method of Runge and Kutta of fourth order, with steps of `step` at most that end at field
-    files; the velocity is quadratic in cells and linear in time between files. With `release`
-    particles begin at the same places again and again, so much time apart: those of one place are
-    a streak line.
+    files; without it, between two files, of a part of their cells over the velocity there. The
+    is quadratic in cells and linear in time between files. With `release` particles begin at the
+    same places again and again, so much time apart: those of one place are a streak line.
     """
     check_run(run)
     flow = StoredFlow(run)
@@ -170,12 +177,6 @@ def carried(
         raise FileNotFoundError(f"{run.path} has no field files: see output.fields of its case")
     time = np.linspace(start, end, outputs + 1)
     way = 1.0 if end > start else -1.0
-    most = min(abs(end - start), flow.usual_step() if step is None else step)
-    if not most > 0.0 or abs(end - start) / most > MOST_STEPS:
-        raise ValueError(
-            f"{abs(end - start) / most if most > 0 else np.inf:.3g} steps of {most:.3g} from "
-            f"t = {start:g} to {end:g}: at most {MOST_STEPS} are made; --step sets another one"
-        )
     releases = np.array([start])
     if release is not None:
         releases = start + way * np.arange(0.0, abs(end - start) * (1 - 1e-12), release)
@@ -186,15 +187,45 @@ def carried(
     stops = np.unique(np.concatenate([time, releases, flow.times]))
     stops = stops[(stops >= min(start, end)) & (stops <= max(start, end))]
     stops = stops if way > 0.0 else stops[::-1]
+    counts = _counts(flow, stops, step)
     wanted = 1
-    for before, after in pairwise(stops):
-        n = max(1, int(np.ceil(abs(after - before) / most - 1e-9)))
+    for (before, after), n in zip(pairwise(stops), counts, strict=True):
         for k in range(n):
             swarm.advance(before + k * (after - before) / n, (after - before) / n)
         if wanted < len(time) and abs(after - time[wanted]) <= 1e-12 * (abs(end) + abs(start)):
             place.append(swarm.shown(float(after)))
             wanted += 1
     return Paths(time, np.array(place), seed, released, swarm.left, swarm.stretching(end))
+
+
+def _counts(flow: StoredFlow, stops: Array, step: float | None) -> list[int]:
+    """Steps between stops; ValueError where they are too many, which says what asks for them."""
+    spans = np.abs(np.diff(stops))
+    if step is not None:
+        most, files = np.full(len(spans), step), []
+    else:
+        usual = [flow.usual_step(0.5 * (before + after)) for before, after in pairwise(stops)]
+        most, files = np.array([one for one, _ in usual]), [number for _, number in usual]
+    if (most > 0.0).all():
+        exact = spans / most
+        if exact.sum() <= MOST_STEPS:
+            return np.maximum(1, np.ceil(exact - 1e-9)).astype(int).tolist()
+    else:
+        exact = np.where(most > 0.0, 0.0, np.inf)
+    text = (
+        f"{exact.sum():.3g} steps from t = {stops[0]:g} to {stops[-1]:g}: at most {MOST_STEPS} are "
+        "made"
+    )
+    if step is not None:
+        raise ValueError(f"{text}; --step sets another one than {step:g}")
+    worst = int(np.argmax(exact))
+    frame = flow.run.fields[files[worst]]
+    raise ValueError(
+        f"{text}; steps of {most[worst]:.3g} between t = {stops[worst]:g} and "
+        f"{stops[worst + 1]:g} are a quarter of the time to cross cells of "
+        f"{flow.crossing(files[worst])[1]:.3g} in {frame.path}, t = {frame.time:g}: --from and "
+        f"--to leave it out, --step sets another step"
+    )
 
 
 class _Swarm:

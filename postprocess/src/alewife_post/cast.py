@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +17,9 @@ if TYPE_CHECKING:
     import pyvista
 
 Array = np.ndarray
+
+THICK = 0.0016
+"""Radius of ways of particles in a picture over the length in view."""
 
 
 class Cast:
@@ -75,7 +77,7 @@ class Cast:
         if request.trails:
             self._add_trails(plotter, moment.time)
         if request.particles is not None:
-            self._add_particles(plotter, request.particles, moment.time)
+            self._add_particles(plotter, request, moment.time, extent)
 
     def _needs_mesh(self, names: list[str], time: float) -> bool:
         """Whether a body has a shape that only the mesh knows."""
@@ -121,13 +123,30 @@ class Cast:
             mesh, scalars="colour", rgb=True, smooth_shading=True, render=False, **style.SOLID
         )
 
-    def _add_particles(self, plotter: pyvista.Plotter, path: Path, time: float) -> None:
+    def _add_particles(
+        self, plotter: pyvista.Plotter, request: Request, time: float, extent: float
+    ) -> None:
         import pyvista
 
         if self.tracks is None:
-            self.tracks = tracers.read_paths(path)
-        lines, heads = self.tracks.shown(self.run, time)
+            self.tracks = tracers.read_paths(request.particles)
+        if request.is_still:
+            lines, heads = self.tracks.still(self.run, time if self.run.is_unsteady else None)
+        else:
+            lines, heads = self.tracks.shown(self.run, time)
         look = {"color": style.PARTICLE, "lighting": False, "render": False}
+        if request.is_still:
+            # As thick as they look at any number of pixels, and above a plane they are in
+            size = THICK * extent
+            tubes = [pyvista.lines_from_points(line).tube(radius=size) for line in lines]
+            if tubes:
+                plotter.add_mesh(pyvista.merge(tubes), **look)
+            if len(heads):
+                balls = pyvista.PolyData(heads).glyph(
+                    geom=pyvista.Sphere(radius=2.2 * size), scale=False, orient=False
+                )
+                plotter.add_mesh(balls, **look)
+            return
         for line in lines:
             plotter.add_mesh(pyvista.lines_from_points(line), line_width=2.0, **look)
         if len(heads):

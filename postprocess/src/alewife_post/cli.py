@@ -7,11 +7,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from alewife_post import cli_fields, cli_series, packages
-from alewife_post.read import Run, open_run
+from alewife_post import cli_fields, cli_look, cli_picture, cli_series, cli_surface, packages
+from alewife_post.read import open_run
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 FAILURES = (OSError, KeyError, ValueError, ImportError)
 
@@ -23,7 +23,7 @@ def main(arguments: list[str] | None = None) -> int:
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     try:
         for name, add, run in (
-            ("picture", _add_picture, _write_picture),
+            ("picture", cli_picture.add_picture, cli_picture.write_picture),
             ("film", _add_film, _write_film),
             ("plot", cli_series.add_plot, cli_series.write_plot),
             ("compare", cli_series.add_compare, cli_series.write_comparison),
@@ -32,6 +32,7 @@ def main(arguments: list[str] | None = None) -> int:
             ("line", cli_fields.add_line, cli_fields.write_line),
             ("section", cli_fields.add_section, cli_fields.write_section),
             ("decay", cli_fields.add_decay, cli_fields.write_decay),
+            ("surface", cli_surface.add_surface, cli_surface.write_surface),
             ("fields", cli_fields.add_fields, cli_fields.write_fields),
             ("trace", cli_fields.add_trace, cli_fields.write_trace),
             ("gallery", _add_gallery, _write_gallery),
@@ -81,101 +82,7 @@ def film_command(arguments: list[str] | None = None) -> int:
     return main(["film", *(sys.argv[1:] if arguments is None else arguments)])
 
 
-# ---- Pictures ------------------------------------------------------------------------------------
-
-
-def _add_picture(parser: argparse.ArgumentParser) -> None:
-    from alewife_post import figure, traction
-
-    _add_run(parser)
-    _add_look(parser, (*figure.QUANTITIES, *traction.QUANTITIES))
-    parser.add_argument("--time", type=float, help="time of the frame; the last one if absent")
-    parser.add_argument(
-        "--scene",
-        action="store_true",
-        help="in space: fluid on a plane, bodies with pressure, sides, streamlines, names",
-    )
-    parser.add_argument("--frame", metavar="BODY", help="subtract the velocity of this body")
-    parser.add_argument(
-        "--lines", choices=("streamlines", "arrows", "none"), help="streamlines if absent, of speed"
-    )
-
-
-def _write_picture(options: argparse.Namespace) -> None:
-    """One picture of a run."""
-    run = open_run(options.run)
-    if options.time is not None:
-        run.check_time(options.time)
-    cli_series.save(_picture(run, options), options.out)
-
-
-def _picture(run: Run, options: argparse.Namespace) -> Figure:
-    from alewife_post import figure, scene, slices, space, stills
-
-    view = options.view and tuple(options.view)
-    if not run.is_spatial:
-        _refuse_in_the_plane(options)
-        return figure.picture(
-            run,
-            options.quantity or "speed",
-            time=options.time,
-            view=view,
-            frame=options.frame,
-            follow=options.follow,
-            lines=options.lines,
-            mirror=not options.half,
-            painter=options.painter,
-        )
-    if options.iso or (options.follow and not options.slice):
-        return _still(run, options)
-    if options.scene:
-        given = ("slice", "surface", "iso", "follow", "view", "frame", "lines", "half")
-        beside = [f"--{name}" for name in given if getattr(options, name)]
-        if beside:
-            raise ValueError(f"--scene has a view of its own: leave out {', '.join(beside)}")
-        return stills.scene_picture(
-            run,
-            quantity=options.quantity or "speed",
-            time=options.time,
-            look_from=options.camera and tuple(options.camera),
-        )
-    if options.surface:
-        quantity = options.quantity or "pressure"
-        camera = tuple(options.camera or scene.CAMERA)
-        return space.surface_picture(run, quantity, time=options.time, camera=camera)
-    return slices.slice_picture(
-        run,
-        options.quantity or "speed",
-        time=options.time,
-        plane=options.slice,
-        view=view,
-        frame=options.frame,
-        lines=options.lines or "streamlines",
-        painter=options.painter,
-    )
-
-
-def _still(run: Run, options: argparse.Namespace) -> Figure:
-    """A run in space as one frame of its film."""
-    from alewife_post import film, stage, style
-
-    field = run.frame(options.time)
-    style.use()
-    request = film.Request(
-        quantity=_filmed(options),
-        follow=options.follow,
-        trails=False,
-        surface=options.surface,
-        iso=options.iso,
-        camera=options.camera and tuple(options.camera),
-    )
-    return stage.still(run, film.Moment(field.time, field.path), request)
-
-
-def _filmed(options: argparse.Namespace) -> str:
-    if options.iso:
-        return "iso"
-    return options.quantity or ("pressure" if options.surface else "speed")
+# ---- Galleries -----------------------------------------------------------------------------------
 
 
 def _add_gallery(parser: argparse.ArgumentParser) -> None:
@@ -230,8 +137,8 @@ def _convert(options: argparse.Namespace) -> None:
 def _add_film(parser: argparse.ArgumentParser) -> None:
     from alewife_post import film
 
-    _add_run(parser)
-    _add_look(parser, film.QUANTITIES)
+    cli_picture.add_run(parser)
+    cli_picture.add_look(parser, film.QUANTITIES)
     parser.add_argument(
         "--window", type=float, nargs=2, metavar=("START", "END"), help="first and last time"
     )
@@ -252,12 +159,8 @@ def _add_film(parser: argparse.ArgumentParser) -> None:
         default="none",
         help="in the plane",
     )
-    parser.add_argument(
-        "--particles",
-        type=Path,
-        metavar="DIR",
-        help="draw what `alewife-post trace` wrote as well, or the tracers of a run",
-    )
+    cli_picture.add_particles(parser)
+    cli_look.add_colours(parser, has_contours=False)
     parser.add_argument("--no-trails", action="store_true", help="leave out the ways of centres")
 
 
@@ -282,7 +185,7 @@ def _write_film(options: argparse.Namespace) -> None:
             if is_given:
                 raise ValueError(f"{name} is for films of runs in the plane")
     else:
-        _refuse_in_the_plane(options)
+        cli_picture.refuse_in_the_plane(options)
     request = film.Request(
         quantity=options.quantity,
         follow=options.follow,
@@ -300,59 +203,6 @@ def _write_film(options: argparse.Namespace) -> None:
         iso=options.iso,
         camera=options.camera and tuple(options.camera),
         particles=options.particles,
+        scale=cli_look.scale(options),
     )
     film.film(run, options.out, request)
-
-
-# ---- In common -----------------------------------------------------------------------------------
-
-
-def _add_run(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("run", type=Path, help="run directory")
-    parser.add_argument("--out", type=Path, required=True, help="file; its ending says the format")
-
-
-def _add_look(parser: argparse.ArgumentParser, quantities: tuple[str, ...]) -> None:
-    parser.add_argument(
-        "--quantity", choices=quantities, help="speed, on surfaces pressure, if absent"
-    )
-    parser.add_argument(
-        "--view",
-        type=float,
-        nargs=4,
-        metavar=("XMIN", "XMAX", "YMIN", "YMAX"),
-        help="of a slice in its own coordinates, about who is followed relative to that",
-    )
-    parser.add_argument("--half", action="store_true", help="one side of the axis only")
-    only_one = parser.add_mutually_exclusive_group()
-    only_one.add_argument(
-        "--slice",
-        metavar="PLANE",
-        help="plane of a run in space, such as z=0.5; through the bodies if absent",
-    )
-    only_one.add_argument("--surface", action="store_true", help="the bodies of a run in space")
-    only_one.add_argument(
-        "--iso",
-        metavar="QUANTITY",
-        help="in space the surface of equal vorticity, or of a value: vorticity=2.5",
-    )
-    parser.add_argument(
-        "--follow",
-        metavar="NAME",
-        help="body or swimmer the view goes with; of films `none` leaves the frame of the run",
-    )
-    parser.add_argument(
-        "--camera",
-        type=float,
-        nargs=2,
-        metavar=("AZIMUTH", "ELEVATION"),
-        help="where bodies are looked at from, degrees about z and above the horizon",
-    )
-    parser.add_argument("--painter", choices=("auto", "vtk", "matplotlib"), default="auto")
-
-
-def _refuse_in_the_plane(options: argparse.Namespace) -> None:
-    if options.surface or options.slice or options.iso or getattr(options, "scene", False):
-        raise ValueError("--surface, --slice, --iso and --scene are for runs in space")
-    if options.camera:
-        raise ValueError("--camera is for runs in space")

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from alewife_post import cli_look
 from alewife_post.cli_series import plain, save
 from alewife_post.read import Run, open_run
 from alewife_post.whole import replacing
@@ -46,7 +47,7 @@ def write_report(options: argparse.Namespace) -> None:
 
 def add_line(parser: argparse.ArgumentParser) -> None:
     """Options of `line`."""
-    _add_run_and_time(parser)
+    add_run_and_time(parser)
     for name, what in (("from", "first"), ("to", "last")):
         parser.add_argument(
             f"--{name}", type=float, nargs="+", required=True, dest=what, metavar="X",
@@ -57,13 +58,14 @@ def add_line(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", type=Path, help="a table (.csv) or a figure (.png, .pdf, .svg); NAME-line.csv"
     )
+    cli_look.add_letters(parser)
 
 
 def write_line(options: argparse.Namespace) -> None:
     """Velocity, pressure and vorticity along a straight line, as a table or a figure."""
     from alewife_post import measures
 
-    run = _run_at(options)
+    run = run_at(options)
     columns = measures.line(
         run, options.first, options.last,
         points=options.points, time=options.time, frame=options.frame,
@@ -73,7 +75,7 @@ def write_line(options: argparse.Namespace) -> None:
 
 def add_section(parser: argparse.ArgumentParser) -> None:
     """Options of `section`."""
-    _add_run_and_time(parser)
+    add_run_and_time(parser)
     parser.add_argument(
         "plane", nargs="+", metavar="PLANE", help="such as x=0.5; several have a row each"
     )
@@ -85,7 +87,7 @@ def write_section(options: argparse.Namespace) -> None:
     from alewife_post import fields, measures, planes
     from alewife_post.cli_series import as_text
 
-    run = _run_at(options)
+    run = run_at(options)
     wanted = [planes.parsed_axis(text) for text in options.plane]
     flow = fields.settled(run, run.field(options.time))
     rows = [
@@ -98,12 +100,13 @@ def write_section(options: argparse.Namespace) -> None:
 
 def add_decay(parser: argparse.ArgumentParser) -> None:
     """Options of `decay`."""
-    _add_run_and_time(parser)
+    add_run_and_time(parser)
     parser.add_argument("--body", metavar="NAME", help="body or swimmer; all of them if absent")
     parser.add_argument("--from", type=float, dest="nearest", metavar="R", help="first distance")
     parser.add_argument("--to", type=float, dest="farthest", metavar="R", help="last distance")
     parser.add_argument("--json", action="store_true", help="print JSON")
     parser.add_argument("--out", type=Path, help="a table (.csv) or a figure (.png, .pdf, .svg)")
+    cli_look.add_letters(parser)
 
 
 def write_decay(options: argparse.Namespace) -> None:
@@ -111,7 +114,7 @@ def write_decay(options: argparse.Namespace) -> None:
     from alewife_post import measures
     from alewife_post.cli_series import as_text
 
-    run = _run_at(options)
+    run = run_at(options)
     found = measures.decay(
         run, around=options.body, nearest=options.nearest, farthest=options.farthest,
         time=options.time,
@@ -130,12 +133,14 @@ def write_decay(options: argparse.Namespace) -> None:
         _write(run, options, options.out, columns)
 
 
-def _add_run_and_time(parser: argparse.ArgumentParser) -> None:
+def add_run_and_time(parser: argparse.ArgumentParser) -> None:
+    """The run, and the time of one of its frames."""
     parser.add_argument("run", type=Path, help="run directory")
     parser.add_argument("--time", type=float, help="time of the frame; the last one if absent")
 
 
-def _run_at(options: argparse.Namespace) -> Run:
+def run_at(options: argparse.Namespace) -> Run:
+    """The run, which is to have the time asked for."""
     run = open_run(options.run)
     if options.time is not None:
         run.check_time(options.time)
@@ -148,10 +153,11 @@ def _write(run: Run, options: argparse.Namespace, out: Path, columns: Columns) -
         from alewife_post import profiles
 
         time = run.frame(options.time).time
-        save(profiles.profile_figure(run, columns, time), out)
+        save(cli_look.finish(profiles.profile_figure(run, columns, time), options), out)
     elif out.suffix.lower() == ".csv":
         write_text(out, table(columns))
     else:
+        cli_look.check_ending(out)
         raise ValueError(f"{out}: a table (.csv) or a figure ({', '.join(DRAWN)}) is written")
 
 
@@ -170,7 +176,7 @@ def table(columns: Columns) -> str:
 
 def add_fields(parser: argparse.ArgumentParser) -> None:
     """Options of `fields`."""
-    _add_run_and_time(parser)
+    add_run_and_time(parser)
     parser.add_argument(
         "--out", type=Path, help="directory of two VTU files; NAME-fields if absent"
     )
@@ -182,7 +188,7 @@ def write_fields(options: argparse.Namespace) -> None:
     from alewife_post import exports
     from alewife_post.cli_series import as_text
 
-    run = _run_at(options)
+    run = run_at(options)
     out = options.out or Path(f"{run.path.resolve().name}-fields")
     found = exports.write_fields(run, options.time, out)
     if options.json:

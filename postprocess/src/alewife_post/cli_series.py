@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from alewife_post import cli_look
 from alewife_post.read import open_run
 from alewife_post.whole import replacing
 
@@ -59,7 +60,10 @@ def write_plot(options: argparse.Namespace) -> None:
     else:
         kind = "series"
         drawn = series.series_figure(run, names, window=window, is_whole=options.whole)
-    save(drawn, options.out or Path(f"{run.path.resolve().name}-{kind}.png"))
+    save(
+        cli_look.finish(drawn, options),
+        options.out or Path(f"{run.path.resolve().name}-{kind}.png"),
+    )
 
 
 # ---- Compare -------------------------------------------------------------------------------------
@@ -104,7 +108,8 @@ def write_comparison(options: argparse.Namespace) -> None:
         drawn, rows = _of_curves(sweeps.as_runs(found[0]) if found else runs, curves, options)
     text = json.dumps(plain(rows), indent=2) if options.json else as_text(rows)
     print(text)
-    save(drawn, options.out or Path("comparison.png"), is_quiet=options.json)
+    out = options.out or Path("comparison.png")
+    save(cli_look.finish(drawn, options), out, is_quiet=options.json)
 
 
 def _of_sweep(sweep: Sweep, options: argparse.Namespace) -> tuple[Figure, list[dict[str, Any]]]:
@@ -161,6 +166,7 @@ def _add_common(parser: argparse.ArgumentParser, usual: str) -> None:
     parser.add_argument(
         "--whole", action="store_true", help="with outliers of a transient at the start, too"
     )
+    cli_look.add_letters(parser)
 
 
 def save(drawn: Figure, out: Path, *, is_quiet: bool = False) -> None:
@@ -169,6 +175,7 @@ def save(drawn: Figure, out: Path, *, is_quiet: bool = False) -> None:
 
     if out.suffix.lower() in FILMS:
         raise ValueError(f"{out} is a film by its name: that is `alewife-post film`")
+    cli_look.check_ending(out)
     if not out.parent.is_dir():
         raise FileNotFoundError(f"there is no directory {out.parent} to write {out.name} into")
     with replacing(out) as unfinished:

@@ -105,3 +105,32 @@ def distances_to_sides(case: dict[str, Any], nodes: Array) -> Array:
             return np.empty((len(nodes), 0))
         case _:
             raise ValueError(f"a {kind} is no domain in space")
+
+
+def distances_by_side(case: dict[str, Any], nodes: Array) -> dict[str, Array]:
+    """Distance of nodes `(n, d)` from each side, `(n,)`, by the name of the side.
+
+    An axis is no side, and the sides of an imported mesh are not known: it has none here.
+    """
+    ((kind, domain),) = case["domain"].items()
+    d = nodes.shape[1]
+    match kind:
+        case "box" | "channel":
+            if kind == "channel":
+                domain = {"min": [0.0, 0.0], "max": [domain["length"], domain["height"]]}
+            names = (("left", "right"), ("bottom", "top"), ("back", "front"))[:d]
+            return {
+                name: nodes[:, axis] - domain[end][axis]
+                for axis, pair in enumerate(names)
+                for name, end in zip(pair, ("min", "max"), strict=True)
+            }
+        case "cylinder":
+            start, end = domain["x"]
+            off_axis = np.linalg.norm(nodes[:, 1:], axis=1) - domain["radius"]
+            return {"left": nodes[:, 0] - start, "right": nodes[:, 0] - end, "wall": off_axis}
+        case "disc" | "half-disc" | "sphere":
+            center = np.zeros(d)
+            given = np.atleast_1d(np.asarray(domain.get("center", 0.0), dtype=float))
+            center[: min(d, len(given))] = given[:d]
+            return {"wall": np.linalg.norm(nodes - center, axis=1) - domain["radius"]}
+    return {}

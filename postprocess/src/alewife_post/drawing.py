@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colorbar import Colorbar
-from matplotlib.colors import Colormap, Normalize
+from matplotlib.colors import BoundaryNorm, Colormap, Normalize
 from matplotlib.patches import Ellipse, FancyArrow, PathPatch, Polygon, Rectangle
 from matplotlib.path import Path
 from matplotlib.tri import LinearTriInterpolator, Triangulation
@@ -34,20 +35,53 @@ EMPTY = 0.3
 
 
 def draw_values(
-    axes: Axes, field: Field, values: Array, colour_map: str, limits: style.Limits
+    axes: Axes,
+    field: Field,
+    values: Array,
+    colour_map: str,
+    limits: style.Limits,
+    contours: int = 0,
 ) -> None:
-    """Nodal values `(n_nodes,)` as smooth colours, quadratic in each cell."""
+    """Nodal values `(n_nodes,)` as smooth colours, quadratic in each cell, or as bands."""
     # Finer than this, a page of many cells shows no difference.
     level = 4 if len(field.cells) < 20_000 else 2
     triangles, weights = subdivide(field.cells, level)
     x, y = refine(field.nodes, field.cells, weights).T
-    shade(
-        axes,
-        Triangulation(x, y, triangles),
-        refine(values, field.cells, weights),
-        colour_map,
-        limits,
+    mesh, fine = Triangulation(x, y, triangles), refine(values, field.cells, weights)
+    if contours:
+        fill(axes, mesh, fine, (colour_map, limits), contours)
+    else:
+        shade(axes, mesh, fine, colour_map, limits)
+
+
+def fill(
+    axes: Axes, mesh: Triangulation, values: Array, colours: tuple[str, style.Limits], n: int
+) -> None:
+    """Values at corners of triangles as bands of one colour each, as areas and not an image."""
+    colour_map, limits = colours
+    low, high = values.min() < limits[0], values.max() > limits[1]
+    extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[low, high]
+    ends = np.linspace(*limits, n + 1)
+    norm = BoundaryNorm(ends, colormaps[colour_map].N, extend=extend)
+    drawn = axes.tricontourf(
+        mesh, values, ends, cmap=colour_map, norm=norm, extend=extend, zorder=1
     )
+    # Without seams between areas
+    drawn.set_edgecolor("face")
+    drawn.set_linewidth(0.1)
+
+
+def draw_outline(
+    axes: Axes, curves: Array, values: Array, colour_map: str, limits: style.Limits
+) -> None:
+    """Curves `(n, k, 2)` in colours by values `(n, k)` along them."""
+    pieces = np.stack([curves[:, :-1], curves[:, 1:]], axis=2).reshape(-1, 2, 2)
+    lines = LineCollection(
+        pieces, cmap=colour_map, norm=Normalize(*limits), linewidths=3.0, zorder=5,
+        capstyle="round",
+    )  # fmt: skip
+    lines.set_array(0.5 * (values[:, :-1] + values[:, 1:]).ravel())
+    axes.add_collection(lines)
 
 
 def draw_fluid(axes: Axes, field: Field) -> None:
@@ -322,7 +356,7 @@ def draw_particles(
 
 
 def colour_bar(
-    axes: Axes,
+    axes: Axes | list[Axes],
     values: Array,
     colour_map: str,
     limits: style.Limits,
@@ -330,13 +364,21 @@ def colour_bar(
     cax: Axes | None = None,
     is_beside: bool = False,
     alpha: float = 1.0,
+    contours: int = 0,
 ) -> Colorbar:
-    """A bar in axes of its own, else beside a tall picture, or below a wide one, never over it."""
+    """A bar in axes of its own, else beside a tall picture, or below a wide one, never over it.
+
+    Of several pictures it is one for all.
+    """
     least = 1e-6 * (limits[1] - limits[0])
     below = bool(values.min() < limits[0] - least)
     above = bool(values.max() > limits[1] + least)
     extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[below, above]
-    mappable = ScalarMappable(Normalize(*limits), colour_map)
+    norm = Normalize(*limits)
+    if contours:
+        ends = np.linspace(*limits, contours + 1)
+        norm = BoundaryNorm(ends, colormaps[colour_map].N, extend=extend)
+    mappable = ScalarMappable(norm, colour_map)
     if cax is not None:
         box = cax.get_position()
         width, height = axes.figure.get_size_inches() * (box.width, box.height)
@@ -344,9 +386,10 @@ def colour_bar(
         return axes.figure.colorbar(
             mappable, cax=cax, extend=extend, orientation=orientation, alpha=alpha
         )
-    (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
+    every = axes if isinstance(axes, list) else [axes]
+    (x0, x1), (y0, y1) = every[0].get_xlim(), every[0].get_ylim()
     is_wide = x1 - x0 > 1.4 * abs(y1 - y0) and not is_beside
-    return axes.figure.colorbar(
+    return every[0].figure.colorbar(
         mappable,
         ax=axes,
         location="bottom" if is_wide else "right",

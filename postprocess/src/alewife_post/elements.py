@@ -84,6 +84,13 @@ def edge_curves(nodes: Array, edges: Array, n_points: int = 9) -> Array:
     return np.einsum("pi,eid->epd", weights, nodes[edges])
 
 
+def edge_values(values: Array, n_points: int = 9) -> Array:
+    """Values `(n_edges, n_points)` along edges of those at start, end and middle."""
+    return edge_curves(values.reshape(-1, 1), np.arange(values.size).reshape(-1, 3), n_points)[
+        ..., 0
+    ]
+
+
 def quarters(cells: Array) -> Array:
     """Four flat triangles a cell between its own nodes, `(4 * n_cells, 3)`."""
     pattern = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])

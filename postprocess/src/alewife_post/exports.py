@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from alewife_post import bodies, derived, traction
+from alewife_post import bodies, derived, skins, traction
 from alewife_post.planes import AXES
 from alewife_post.read import QUADRATIC_TETRAHEDRON, QUADRATIC_TRIANGLE, Field, Run
+from alewife_post.skins import spatial
 from alewife_post.streamfunction import stream_function
 from alewife_post.whole import replacing
 
@@ -19,12 +20,10 @@ if TYPE_CHECKING:
 
 Array = np.ndarray
 
-QUADRATIC_EDGE = 21
-
 
 @dataclass(frozen=True)
 class Written:
-    """Files of one frame, and a row for each body."""
+    """Files of one frame, and a row for each body and side."""
 
     paths: list[Path]
     rows: list[dict[str, object]]
@@ -39,25 +38,23 @@ def write_fields(run: Run, time: float | None, out: Path) -> Written:
     paths = []
     for name, grid in (
         ("fields.vtu", _fluid(run, field, own)),
-        ("surfaces.vtu", _surfaces(field, found)),
+        ("surfaces.vtu", skins.grid(field, found)),
     ):
         grid.field_data["TimeValue"] = [field.time]
         # The ending says the format, and VTK asks it of the name
         with replacing(out / name) as unfinished:
             grid.save(unfinished)
         paths.append(out / name)
-    return Written(
-        paths, [_row(run, field, one) for one in found if one.facets.name != traction.SIDES]
-    )
+    return Written(paths, [row(run, field, one) for one in found])
 
 
 def _fluid(run: Run, field: Field, own: derived.Rates) -> pyvista.UnstructuredGrid:
     import pyvista
 
     kind = QUADRATIC_TETRAHEDRON if run.is_spatial else QUADRATIC_TRIANGLE
-    grid = pyvista.UnstructuredGrid({kind: field.cells}, _spatial(field.nodes))
+    grid = pyvista.UnstructuredGrid({kind: field.cells}, spatial(field.nodes))
     data = grid.point_data
-    data["velocity"] = _spatial(field.velocity)
+    data["velocity"] = spatial(field.velocity)
     data["pressure"] = field.pressure
     data["vorticity"] = own.vorticity
     data["strain_rate"] = _tensor(own)
@@ -83,50 +80,43 @@ def _tensor(own: derived.Rates) -> Array:
     return np.stack([full[:, i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))], 1)
 
 
-def _surfaces(field: Field, found: list[traction.Surface]) -> pyvista.UnstructuredGrid:
-    """Facets of all surfaces, each with nodes of its own, and `body`, a number in their order."""
-    import pyvista
+def row(run: Run, field: Field, one: traction.Surface) -> dict[str, object]:
+    """The integral of the traction on a body or a side beside the force that the run has written.
 
-    d = field.nodes.shape[1]
-    facets, parts, start = [], [], 0
-    for number, one in enumerate(found):
-        place = np.full(len(field.nodes), -1)
-        place[one.nodes] = start + np.arange(len(one.nodes))
-        facets.append(place[one.facets.nodes])
-        start += len(one.nodes)
-        parts.append((number, one))
-    kind = QUADRATIC_EDGE if d == 2 else QUADRATIC_TRIANGLE
-    points = np.concatenate([field.nodes[one.nodes] for one in found])
-    grid = pyvista.UnstructuredGrid({kind: np.concatenate(facets)}, _spatial(points))
-    data = grid.point_data
-    for name in ("traction", "recovered", "viscous", "normal"):
-        key = {"viscous": "viscous_traction", "recovered": "traction_recovered"}.get(name, name)
-        data[key] = _spatial(np.concatenate([getattr(one, name) for one in found]))
-    data["pressure"] = np.concatenate([field.pressure[one.nodes] for one in found])
-    data["wall_shear"] = np.concatenate([_shear(one) for one in found])
-    data["body"] = np.concatenate([np.full(len(one.nodes), number) for number, one in parts])
-    grid.field_data["bodies"] = [one.facets.name for one in found]
-    return grid
-
-
-def _shear(one: traction.Surface) -> Array:
-    """Magnitude of the tangential part of the traction."""
-    along = (one.recovered * one.normal).sum(axis=1, keepdims=True)
-    return np.linalg.norm(one.recovered - along * one.normal, axis=1)
-
-
-def _spatial(values: Array) -> Array:
-    return np.hstack([values, np.zeros((len(values), 3 - values.shape[1]))])
-
-
-def _row(run: Run, field: Field, one: traction.Surface) -> dict[str, object]:
-    """The integral of the traction beside the force that the run has written."""
+    The force of a side is that of `series.csv`, at the time of the frame.
+    """
     name = one.facets.name
-    row: dict[str, object] = {"body": name, "method": one.method, "nodes": len(one.nodes)}
+    shear = traction.magnitude(one, "wall-shear")
+    found: dict[str, object] = {
+        "surface": name,
+        "is": "body" if one.facets.is_body else "side",
+        "method": one.method,
+        "nodes": len(one.nodes),
+        "largest wall shear": float(shear.max()),
+    }
     history = run.bodies.get(name)
     for axis in range(1 if run.is_axisymmetric else len(one.force)):
-        row[f"traction.{AXES[axis]}"] = float(one.force[axis])
-        if history is not None and bodies.is_written(run, field.time):
+        found[f"traction.{AXES[axis]}"] = float(one.force[axis])
+        if not one.facets.is_body:
+            force = _of_side(run, f"{name}.force.{AXES[axis]}", field.time)
+        elif history is not None and bodies.is_written(run, field.time):
             force = history.force[bodies.nearest(history, field.time), axis]
-            row[f"force.{AXES[axis]}"] = float(force)
-    return row
+        else:
+            continue
+        if force is not None:
+            found[f"force.{AXES[axis]}"] = float(force)
+    return found
+
+
+def _of_side(run: Run, column: str, time: float) -> float | None:
+    """A quantity of a side in the row of a time, if the run has both."""
+    if not (run.path / "series.csv").is_file() or column not in run.series:
+        return None
+    times = run.series["time"]
+    if not len(times):
+        return None
+    if not run.is_unsteady:
+        return float(run.series[column][-1])
+    nearest = int(np.argmin(np.abs(times - time)))
+    is_there = abs(times[nearest] - time) <= 1e-6 * float(np.ptp(times)) + 1e-12
+    return float(run.series[column][nearest]) if is_there else None

@@ -90,7 +90,9 @@ class Page:
         drawn.set_label(bar.label)
 
     def _add_title(self, title: str, width: float) -> None:
-        text = self.figure.text(0.5, 0.985, title, ha="center", va="top", fontsize=10.0)
+        text = self.figure.text(
+            0.5, 0.985, title, ha="center", va="top", fontsize=10.0, gid="title"
+        )
         renderer = self.canvas.get_renderer()
         wide = text.get_window_extent(renderer).width / DPI
         text.set_fontsize(max(6.0, 10.0 * min(1.0, 0.96 * width / wide)))

@@ -63,6 +63,7 @@ def images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]
                 request.quantity,
                 (_samples(run, moment, seen(nth), request) for nth, moment in enumerate(moments)),
                 units,
+                scale=request.scale,
             )
             colour_map, limits = bar.colour_map, bar.limits
         is_mirrored = run.is_axisymmetric and request.mirror
@@ -87,8 +88,9 @@ def images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]
         if tracks is not None:
             is_mirrored = run.is_axisymmetric and request.mirror
             lines, heads = tracks.shown(run, moment.time)
-            light = request.quantity != "speed"
-            colour = style.STREAMLINE_ON_LIGHT if light else style.STREAMLINE
+            colour_map = bar.colour_map if bar is not None else ""
+            shown = request.quantity if bar is not None else "mesh"
+            colour = style.line_colour(shown, colour_map)
             drawing.draw_particles(page.axes, lines, heads, colour, is_mirrored=is_mirrored)
         _place(page.axes, view + np.repeat(back[nth], 2), moved[nth])
         yield page.image(time_stamp(run, moment.time))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -42,3 +42,39 @@ def profile_figure(run: Run, columns: Mapping[str, Array], time: float) -> Figur
             axes.legend()
     rows[-1].set_xlabel(style.length_label("distance", run.units))
     return figure
+
+
+def surface_figure(
+    run: Run, curves: Mapping[str, Mapping[str, Array]], quantities: Sequence[str], time: float
+) -> Figure:
+    """Quantities over arc length, a panel each, with a curve for each side or body."""
+    style.use()
+    figure, rows = series.stacked(len(quantities), title(run, time))
+    colours = series.line_colours(len(curves))
+    for axes, quantity in zip(rows, quantities, strict=True):
+        for (name, columns), colour in zip(curves.items(), colours, strict=True):
+            part = columns.get("part", np.zeros(len(columns["distance"])))
+            for number in np.unique(part):
+                own = part == number
+                axes.plot(
+                    columns["distance"][own], surface_values(columns, quantity)[own], color=colour,
+                    lw=1.2, label=name if number == part[0] else None,
+                )  # fmt: skip
+        label = style.label("wall-shear" if quantity == "shear" else quantity, run.units)
+        axes.set_ylabel(label.replace("wall shear stress", "shear along it")
+                        if quantity == "shear" else label)  # fmt: skip
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.margins(x=0.01)
+        if len(curves) > 1:
+            axes.legend()
+    on = f" along {next(iter(curves))}" if len(curves) == 1 else ""
+    rows[-1].set_xlabel(style.length_label(f"distance{on}", run.units))
+    return figure
+
+
+def surface_values(columns: Mapping[str, Array], quantity: str) -> Array:
+    """A quantity of a surface by its columns, `(n,)`."""
+    if quantity == "traction":
+        parts = [values for name, values in columns.items() if name.startswith("traction.")]
+        return np.linalg.norm(parts, axis=0)
+    return columns[quantity.replace("-", "_")]

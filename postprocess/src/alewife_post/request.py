@@ -55,6 +55,10 @@ class Request:
     """In space: surface of equal `vorticity`, or `vorticity=2.5`, and no slice."""
     particles: Path | None = None
     """Paths of particles that are drawn as well."""
+    is_still: bool = False
+    """Whether it is a picture: ways of particles are whole, of a steady flow to their ends."""
+    scale: style.Scale = style.FREE
+    """Limits and map of colours, if they are asked for."""
     camera: tuple[float, float] | None = None
     """In space: degrees about z and above the horizon."""
 
@@ -181,7 +185,11 @@ def group_colours(run: Run) -> dict[str, str]:
 
 
 def colour_scale(
-    quantity: str, samples: Iterable[tuple[Array, Array]], units: Given, alpha: float = 1.0
+    quantity: str,
+    samples: Iterable[tuple[Array, Array]],
+    units: Given,
+    alpha: float = 1.0,
+    scale: style.Scale = style.FREE,
 ) -> Bar:
     """One scale of colours for all frames, of the values `(n,)` of each and the areas they hold."""
     kept, ends = [], []
@@ -190,7 +198,7 @@ def colour_scale(
         ends += [values.min(), values.max()]
     values = np.concatenate([one for one, _ in kept])
     share = np.concatenate([one / one.sum() for _, one in kept])
-    colour_map, limits = style.colours(quantity, values, share)
+    colour_map, limits = scale.colours(quantity, values, share)
     return Bar(colour_map, limits, np.array(ends), style.label(quantity, units), alpha)
 
 
@@ -203,7 +211,8 @@ def thinned(values: Array, share: Array) -> tuple[Array, Array]:
 def no_film(run: Run, out: Path, request: Request, time: float) -> str:
     """That a film would have one frame only, and what to do instead."""
     still = out.with_suffix(".png")
-    instead = f"draw a picture: alewife-post picture {run.path} --out {still}"
+    paths = f" --particles {request.particles}" if request.particles else ""
+    instead = f"draw a picture: alewife-post picture {run.path}{paths} --out {still}"
     if not run.is_unsteady:
         return f"{run.path} is steady: it has one frame only, which is no film; {instead}"
     if request.window is not None:

@@ -66,6 +66,8 @@ class Scale:
     """Least and largest value that is there."""
     tail: float | None = None
     """Per cent of the area beyond each limit, if it is not the usual one."""
+    is_asked: bool = False
+    """Whether the limits were asked for, and do not follow the values."""
 
 
 @dataclass(frozen=True)

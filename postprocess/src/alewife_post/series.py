@@ -38,6 +38,10 @@ LETTERS = 13
 """Letters of a legend to the inch, less its margins."""
 WIDEST = 78
 """Letters of a label."""
+NOTHING = 1e-12
+"""Size over that of its kind up to which a quantity is the rounding of zero."""
+ALIKE = 1e-9
+"""Difference over the size up to which runs have the same value."""
 
 
 def series_figure(
@@ -101,17 +105,52 @@ def in_common(runs: list[Run]) -> list[str]:
     """Columns to draw where none is asked for, one a panel, of those that all runs have.
 
     Of several bodies the first ones: what is suggested may be an ending that each of them has.
+    Columns with references come first; of others only those that are not zero in all rows of all
+    runs, and where nothing suggested is left, any that differ between runs.
     """
     first = runs[0].series
+    shared = [name for name in first if all(name in run.series for run in runs)]
     names = dict.fromkeys(
         line.name for asked_for in suggested(runs[0]) for line in asked.lines(first, asked_for)
     )
-    found = [
-        name
-        for name in names
-        if all(part in run.series for run in runs for part in name.split(asked.MINUS))
-    ]
-    return found[:MOST_PANELS]
+    kept = [name for name in names if all(one in shared for one in name.split(asked.MINUS))]
+    referenced = set(evidence.compared(runs[0]))
+    found = [name for name in kept if name in referenced or not _is_zero(runs, name)]
+    if not found:
+        found = [
+            name
+            for name in shared
+            if name != "time" and not name.endswith(evidence.DEFECT) and differs(runs, name)
+        ]
+    return (found or kept)[:MOST_PANELS]
+
+
+def _is_zero(runs: list[Run], name: str) -> bool:
+    """Whether a quantity is zero in all rows of all runs, up to rounding of those of its kind."""
+    size = max(_largest(run, name) for run in runs)
+    beside = [one for one in runs[0].series if _kind(one) is not None and _kind(one) == _kind(name)]
+    kind = max([0.0, *(_largest(run, one) for one in beside for run in runs if one in run.series)])
+    return size <= NOTHING * kind
+
+
+def _kind(name: str) -> tuple[str, str] | None:
+    """What components of a vector have in common, and coefficients of a body."""
+    owner, _, last = name.rpartition(".")
+    if last in ("x", "y", "z") and "." in owner:
+        return owner, ""
+    return (owner, last.rpartition("_")[2]) if "_" in last else None
+
+
+def _largest(run: Run, name: str) -> float:
+    (line,) = asked.lines(run.series, name)
+    return float(np.abs(_finite(line.values)).max())
+
+
+def differs(runs: list[Run], name: str) -> bool:
+    """Whether the last values of a quantity are not all the same."""
+    lines = [asked.lines(run.series, name)[0] for run in runs]
+    last = np.array([_finite(line.values)[-1] for line in lines])
+    return bool(np.ptp(last) > ALIKE * np.abs(last).max())
 
 
 def _has(series: Mapping[str, Array], name: str) -> bool:

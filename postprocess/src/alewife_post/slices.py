@@ -19,6 +19,7 @@ from alewife_post import (
     style,
     surfaces,
     tracing,
+    traction,
 )
 from alewife_post.cuts import Cut, samples, whole_slice, within
 from alewife_post.derived import with_quantity
@@ -37,6 +38,7 @@ Array = np.ndarray
 View = tuple[float, float, float, float]
 Region = tuple[Array, Array]
 
+QUANTITIES = ("speed", "pressure", "vorticity", "shear-rate", "q")
 IMAGE_WIDTH = 1600
 """Pixels of a slice from left to right."""
 POINTS = 300
@@ -57,6 +59,7 @@ def slice_picture(
     frame: str | None = None,
     lines: str = "streamlines",
     painter: Painter = "auto",
+    scale: style.Scale = style.FREE,
 ) -> Figure:
     """A quantity on a plane such as `z=0.5`, with the streamlines of the velocity in the plane.
 
@@ -65,6 +68,13 @@ def slice_picture(
     `frame` names a body whose velocity is subtracted.
     """
     check_run(run, is_spatial=True, instead="figure.picture")
+    if quantity in traction.QUANTITIES:
+        raise ValueError(
+            f"{quantity} is on surfaces, not on a slice: --surface draws it on bodies or sides, "
+            "and alewife-post surface along the curve of a slice; on slices there are "
+            f"{', '.join(QUANTITIES)}"
+        )
+    checked.choice("quantity", quantity, QUANTITIES)
     checked.choice("lines", lines, LINES)
     view = None if view is None else checked.view(view)
     painter = chosen_painter(painter)
@@ -78,15 +88,15 @@ def slice_picture(
     if part.n_cells == 0:
         raise ValueError(f"there is no fluid in the view on {plane_of.text}")
     values, share = samples(part)
-    colour_map, limits = style.colours(quantity, values, share)
+    colour_map, limits = scale.colours(quantity, values, share)
 
     width = min(style.LARGEST[0], style.LARGEST[1] * (view[1] - view[0]) / (view[3] - view[2]))
     size = (width + 1.2, width * (view[3] - view[2]) / (view[1] - view[0]) + 0.9)
     figure = Figure(figsize=size, layout="compressed")
     axes = figure.add_subplot()
     axes.set_aspect("equal")
-    _paint(axes, part, cut, (colour_map, limits), painter)
-    _draw_lines(axes, run, field, cut, (quantity, lines))
+    _paint(axes, part, cut, (colour_map, limits, scale.contours), painter)
+    _draw_lines(axes, run, field, cut, (quantity, lines, colour_map))
     for section in sections.sections(run, field, plane_of, region):
         axes.fill(*plane_of.coordinates(section).T, color=style.BODY, zorder=3.5)
     sides = [
@@ -102,7 +112,7 @@ def slice_picture(
     axes.set_xlabel(style.length_label(plane_of.names[0], units))
     axes.set_ylabel(style.length_label(plane_of.names[1], units))
     axes.set_title(style.fitted(f"{title(run, field.time)}, {plane_of.text}", size[0]))
-    bar = colour_bar(axes, values, colour_map, limits)
+    bar = colour_bar(axes, values, colour_map, limits, contours=scale.contours)
     bar.set_label(style.label(quantity, units) + (f" relative to {frame}" if frame else ""))
     return figure
 
@@ -111,14 +121,14 @@ def _paint(
     axes: Axes,
     part: pyvista.PolyData,
     cut: Cut,
-    colours: tuple[str, style.Limits],
+    colours: tuple[str, style.Limits, int],
     painter: Painter,
 ) -> None:
     """The triangles of a slice, seen against its normal."""
     flat = cut.plane.coordinates(np.asarray(part.points, dtype=float))
-    colour_map, limits = colours
+    colour_map, limits, contours = colours
     view = (cut.low[0], cut.high[0], cut.low[1], cut.high[1])
-    if painter == "vtk":
+    if painter == "vtk" and not contours:
         seen = part.copy()
         seen.points = np.column_stack([flat, np.zeros(len(flat))])
         look = {"scalars": "values", "cmap": colour_map, "clim": limits}
@@ -126,15 +136,19 @@ def _paint(
         axes.imshow(image, extent=view, zorder=1, interpolation="antialiased", aspect="equal")
         return
     triangles = Triangulation(*flat.T, part.regular_faces)
-    drawing.shade(axes, triangles, np.asarray(part.point_data["values"]), colour_map, limits)
+    values = np.asarray(part.point_data["values"])
+    if contours:
+        drawing.fill(axes, triangles, values, (colour_map, limits), contours)
+    else:
+        drawing.shade(axes, triangles, values, colour_map, limits)
 
 
-def _draw_lines(axes: Axes, run: Run, field: Field, cut: Cut, what: tuple[str, str]) -> None:
+def _draw_lines(axes: Axes, run: Run, field: Field, cut: Cut, what: tuple[str, str, str]) -> None:
     """Streamlines or arrows of the velocity in a plane, over a quantity."""
-    quantity, lines = what
+    quantity, lines, colour_map = what
     if lines == "none":
         return
-    colour = style.STREAMLINE if quantity == "speed" else style.STREAMLINE_ON_LIGHT
+    colour = style.line_colour(quantity, colour_map)
     view = (cut.low[0], cut.high[0], cut.low[1], cut.high[1])
     x, y = _grid_lines(view)
     at = cut.plane.points(np.stack(np.meshgrid(x, y), axis=-1))

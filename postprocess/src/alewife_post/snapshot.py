@@ -51,6 +51,8 @@ class Look:
     is_smooth: bool = True
     """Whether it is rendered finer than that, and averaged."""
     is_mirrored: bool = False
+    contours: int = 0
+    """Bands of one colour each, if not zero."""
 
 
 def chosen_painter(painter: Painter) -> Painter:
@@ -70,7 +72,7 @@ def paint(
     """Paint a flow that is `prepared`, with streamlines if they are known already."""
     field = joined(flow)
     values = None if look.quantity == "mesh" else nodal_values(field, look.quantity)
-    if look.painter == "vtk":
+    if look.painter == "vtk" and not look.contours:
         size = (look.width, look.is_smooth)
         image = scene.render(
             field, view, size, values, look.colour_map, look.limits, values is None
@@ -80,8 +82,8 @@ def paint(
         drawing.draw_fluid(axes, field)
         drawing.draw_edges(axes, field)
     else:
-        drawing.draw_values(axes, field, values, look.colour_map, look.limits)
-    colour = style.STREAMLINE if look.quantity == "speed" else style.STREAMLINE_ON_LIGHT
+        drawing.draw_values(axes, field, values, look.colour_map, look.limits, look.contours)
+    colour = style.line_colour(look.quantity, look.colour_map)
     if lines is not None:
         drawing.draw_streamlines(axes, lines, view, colour)
     elif look.lines == "streamlines":

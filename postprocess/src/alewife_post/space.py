@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from alewife_post import bodies, drawing, scene, style, surfaces, traction
+from alewife_post import bodies, derived, drawing, facets, scene, skins, style, surfaces, traction
 from alewife_post.domains import domain_box
 from alewife_post.drawing import colour_bar
 from alewife_post.periodic import shifts
-from alewife_post.read import Run, check_run
+from alewife_post.read import Field, Run, check_run
 from alewife_post.recovered import smooth_pressure
 from alewife_post.sections import sample, sections, side_sections
 from alewife_post.snapshot import title
 
 if TYPE_CHECKING:
-    pass
+    import pyvista
 
 __all__ = ["motion", "sample", "sections", "side_sections", "surface_picture"]
 
@@ -35,23 +36,29 @@ def surface_picture(
     *,
     time: float | None = None,
     camera: Camera = scene.CAMERA,
+    on: Sequence[str] = (),
+    scale: style.Scale = style.FREE,
 ) -> Figure:
-    """The bodies, coloured by a quantity on their surfaces.
+    """The bodies, coloured by a quantity on their surfaces; without any the sides of the domain.
 
-    `camera` is where it is looked from: degrees about z, from x, and above the horizon.
+    `on` names bodies and sides that are shown instead. `camera` is where it is looked from: degrees
+    about z, from x, and above the horizon. `scale` has limits and a map of colours.
     """
     check_run(run, is_spatial=True, instead="figure.picture")
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
     style.use()
-    field = traction.with_quantity(run, smooth_pressure(run.field(time)), quantity)
-    surface = surfaces.bodies_surface(run, field, quantity)
+    surface, field = _shown(run, quantity, time, on)
     sized = surface.compute_cell_sizes(length=False, volume=False)
     values = np.asarray(sized.point_data_to_cell_data().cell_data["values"])
-    colour_map, limits = style.colours(quantity, values, np.asarray(sized.cell_data["Area"]))
+    colour_map, limits = scale.colours(quantity, values, np.asarray(sized.cell_data["Area"]))
     extent = float(np.ptp(np.asarray(surface.points), axis=0).max())
     image, pixel = scene.render_surface(
-        (surface, motion(run, field.time, extent)), IMAGE_SIZE, camera, colour_map, limits
+        (surface, [] if on else motion(run, field.time, extent)),
+        IMAGE_SIZE,
+        camera,
+        colour_map,
+        limits,
     )
     figure = Figure(figsize=(7.2, 5.0), layout="compressed")
     axes = figure.add_subplot()
@@ -66,6 +73,23 @@ def surface_picture(
     bar = colour_bar(axes, values, colour_map, limits, is_beside=True)
     bar.set_label(style.label(quantity, run.units))
     return figure
+
+
+def _shown(
+    run: Run, quantity: str, time: float | None, on: Sequence[str]
+) -> tuple[pyvista.PolyData, Field]:
+    """A surface with nodal `values`, and the flow that it is of."""
+    field = smooth_pressure(run.field(time))
+    if not on:
+        every = facets.facets_of(run, field)
+        if any(one.is_body for one in every):
+            field = traction.with_quantity(run, field, quantity)
+            return surfaces.bodies_surface(run, field, quantity), field
+    field = derived.with_quantity(run, field, quantity)
+    found = traction.surfaces_of(run, field)
+    return skins.shown(
+        field, traction.chosen(run, found, list(on)) if on else found, quantity
+    ), field
 
 
 def motion(run: Run, time: float, extent: float) -> list[tuple[Any, str]]:

@@ -89,7 +89,7 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
     elif parts is not None:
         alpha = 1.0 if request.surface else SLICE_OPACITY
         seen_parts = (samples(part) for part in parts if part.n_cells)
-        bar = colour_scale(request.quantity, seen_parts, units, alpha)
+        bar = colour_scale(request.quantity, seen_parts, units, alpha, request.scale)
         look = {"scalars": "values", "cmap": bar.colour_map, "clim": bar.limits}
         look["show_scalar_bar"] = False
         look |= style.SOLID if request.surface else {"lighting": False, "opacity": alpha}

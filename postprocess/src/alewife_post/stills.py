@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -36,17 +37,29 @@ def scene_picture(
     time: float | None = None,
     look_from: tuple[float, float] | None = None,
     quantity: str = "speed",
+    scale: style.Scale = style.FREE,
 ) -> Figure:
     """A run in space at the frame nearest to `time`, or at the last one.
 
     The fluid on a plane through the bodies is coloured by its speed or another quantity, bodies by
-    the pressure on them. `look_from` is in degrees about z, from x, and above the horizon.
+    the pressure on them. `look_from` is in degrees about z, from x, and above the horizon. `scale`
+    is that of the fluid.
     """
     checked.choice("quantity of a scene", quantity, scenery.QUANTITIES)
     check_run(run, is_spatial=True, instead="figure.picture")
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
-    return figure_of(run, scenery.scenery(run, time), look_from=look_from, quantity=quantity)
+    shown = scenery.scenery(run, time)
+    key = (scenery.FLUID, quantity)
+    if key in shown.scales:
+        usual = shown.scales[key]
+        shown.scales[key] = replace(
+            usual,
+            colour_map=scale.colour_map or usual.colour_map,
+            limits=scale.limits or usual.limits,
+            is_asked=scale.limits is not None,
+        )
+    return figure_of(run, shown, look_from=look_from, quantity=quantity)
 
 
 def figure_of(
@@ -77,7 +90,7 @@ def figure_of(
     camera.legend(axes, (100 * width, 100 * height), view, run.units)
     _add_names(axes, run, shown.time, view, width / height)
     figure.text(0.5 * width / SIZE[0], 1.0 - 0.04 / SIZE[1], heading, ha="center", va="top",
-                fontsize=style.PARAMETERS["axes.titlesize"])  # fmt: skip
+                fontsize=style.PARAMETERS["axes.titlesize"], gid="title")  # fmt: skip
     for nth, key in enumerate(scales):
         _add_bar(figure, run, shown.scales[key], key, (nth, len(scales)))
     return figure
@@ -155,5 +168,6 @@ def _add_bar(
     note = style.beyond(name, scale.limits, scale.ends, scale.tail)
     if note != style.ALL:
         left_out, _, upto = note.removeprefix("limits leave out ").partition(", up to ")
+        left_out = "values" if scale.is_asked else left_out
         axes.text(0.0, 1.06, f"{left_out.replace(' at each end', '')}\nbeyond, to {upto}",
                   transform=axes.transAxes, fontsize=5.5, va="bottom")  # fmt: skip

@@ -38,6 +38,9 @@ ISO_OPACITY = 0.4
 SOLID = {"ambient": 0.35, "diffuse": 0.7, "specular": 0.15}
 """How surfaces in space take light."""
 
+LIGHT = 0.6
+"""Brightness of colours over which light lines are not seen."""
+
 DPI = 200
 LARGEST = (7.2, 5.2)
 """Largest width and height of the axes of a picture (inches)."""
@@ -176,6 +179,39 @@ def colours(
     if min(-low, high) > 0.2 * largest:
         return look.two_sided, (-largest, largest)
     return look.one_sided, (low, high if high > low else low + 1.0)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Colours as they are asked for; what is not follows the values."""
+
+    limits: Limits | None = None
+    colour_map: str | None = None
+    """A name of matplotlib."""
+    contours: int = 0
+    """Bands of one colour each between the limits, drawn as lines and areas; smooth if zero."""
+
+    def colours(
+        self, quantity: str, values: Array, share: Array | None = None, tail: float | None = None
+    ) -> tuple[str, Limits]:
+        """Colour map and limits, likewise."""
+        colour_map, limits = colours(quantity, values, share, tail)
+        return self.colour_map or colour_map, self.limits or limits
+
+
+FREE = Scale()
+
+
+def line_colour(quantity: str, colour_map: str) -> str:
+    """Of lines over a field: light ones over speed, unless its colours are a light map."""
+    if quantity != "speed":
+        return STREAMLINE_ON_LIGHT
+    looks = LOOKS[quantity]
+    if colour_map in (looks.one_sided, looks.two_sided):
+        return STREAMLINE
+    # Most of a fluid is slow, and lines are seen where it is not as well
+    shades = matplotlib.colormaps[colour_map]([0.1, 0.35])[:, :3] @ [0.299, 0.587, 0.114]
+    return STREAMLINE_ON_LIGHT if shades.mean() > LIGHT else STREAMLINE
 
 
 def beyond(quantity: str, limits: Limits, ends: Limits, tail: float | None = None) -> str:

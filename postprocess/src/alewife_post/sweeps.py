@@ -46,7 +46,12 @@ def chosen_names(sweep: Sweep, names: list[str]) -> list[str]:
     """Quantities to show, which every point has."""
     first = sweep.points[0][1]
     found = [line.name for name in names for line in asked.lines(first.series, name)]
-    return list(dict.fromkeys(found)) or series.in_common([run for _, run in sweep.points])
+    if found:
+        return list(dict.fromkeys(found))
+    runs = [run for _, run in sweep.points]
+    usual = series.in_common(runs)
+    referenced = set(evidence.compared(first))
+    return [name for name in usual if name in referenced or series.differs(runs, name)] or usual
 
 
 def table(sweep: Sweep, names: list[str], statistic: str = "final") -> list[Row]:

@@ -133,6 +133,35 @@ class Tracks:
         heads = np.concatenate(points) if points else np.zeros((0, 3))
         return [piece for piece in parted if len(piece) > 1], heads
 
+    def still(self, run: Run, time: float | None) -> tuple[list[Array], Array]:
+        """The same for a picture, at a time or at the last one: ways are whole up to then.
+
+        Those of particles that have left the fluid are among them.
+        """
+        last = max(float(at[-1]) for at in self.time)
+        now = last if time is None else time
+        lines, heads = self.shown(run, now)
+        if len(set(self.released)) > 1:
+            return lines, heads
+        whole = []
+        for at, place in zip(self.time, self.place, strict=True):
+            way = place[at <= now * (1 + 1e-12) + 1e-300]
+            if at[0] < now < at[-1]:
+                way = np.vstack([way, _at(at, place, now)])
+            whole += [piece for piece in trail(run.case, way) if len(piece) > 1]
+        return whole, heads
+
+    def check_time(self, time: float, path: Path) -> None:
+        """ValueError where no particle is known at a time."""
+        first = min(float(at[0]) for at in self.time)
+        last = max(float(at[-1]) for at in self.time)
+        slack = 1e-9 * (abs(first) + abs(last))
+        if not first - slack <= time <= last + slack:
+            raise ValueError(
+                f"t = {time:.6g} is not in {path}: its particles are known from t = {first:.6g} to "
+                f"{last:.6g}"
+            )
+
 
 def _parted(lines: list[Array]) -> list[Array]:
     """Streak lines without the gaps between particles that the flow has taken far apart."""

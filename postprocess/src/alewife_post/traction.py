@@ -6,37 +6,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from alewife_post import bodies, derived
+from alewife_post import asked, bodies, derived, sides
 from alewife_post.cells import reference_nodes, slopes, slopes_in_space, weights
 from alewife_post.domains import periods
-from alewife_post.elements import edges
-from alewife_post.periodic import is_joined
+from alewife_post.facets import SIDES, Facets, boundary_edges, facets_of, parts
 from alewife_post.read import Field, Run
-from alewife_post.surfaces import boundary_faces, on_sides
+from alewife_post.surfaces import boundary_faces
 
 Array = np.ndarray
 
 QUANTITIES = ("traction", "wall-shear")
 """Of pictures of surfaces."""
-SIDES = "sides"
-"""Name of all surfaces that are no body's."""
+CREASE = 40.0
+"""Degrees from which on facets that meet have a normal of their own each."""
 RESIDUAL, RECOVERED = "residual", "recovered"
-NEAR = 1.05
-"""A surface within the reach of a body times this is its own: shapes are drawn by it, and moved."""
 GAUSS = 4
 """Points a direction, for integrals over cells and facets."""
 CONVERGED = 1e-13
 MOST_ITERATIONS = 500
-
-
-@dataclass(frozen=True)
-class Facets:
-    """A surface of the fluid, of quadratic edges in the plane and quadratic triangles in space."""
-
-    name: str
-    """That of the body it belongs to, or `sides`."""
-    nodes: Array
-    """Nodes of each facet `(m, k)`, so that the normal of the parametrisation leaves the fluid."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +32,9 @@ class Surface:
 
     facets: Facets
     nodes: Array
-    """Numbers of its nodes, `(n,)`."""
+    """Numbers of its nodes, `(n,)`; one at a crease is there once for each of its sides."""
+    own: Array
+    """Nodes of each facet by their places in `nodes`, `(m, k)`."""
     normal: Array
     """Into the fluid, `(n, d)`."""
     traction: Array
@@ -61,7 +50,10 @@ class Surface:
 
 
 def surfaces_of(run: Run, field: Field) -> list[Surface]:
-    """Surfaces of all bodies, then of the sides, with the tractions on them.
+    """Surfaces of all bodies, then of each side, with the tractions on them.
+
+    Each has nodes of its own, and several where it has a crease: at the corner of two sides each
+    has its own normal.
 
     Where one frame has all that is in the balance of momentum (Stokes flow, or a steady flow past
     held bodies), the traction on a body is that whose integrals are the residuals of the equations
@@ -72,16 +64,19 @@ def surfaces_of(run: Run, field: Field) -> list[Surface]:
     recovered = derived.stress(run.case, field, own)
     found = []
     for facets in facets_of(run, field):
-        nodes = np.unique(facets.nodes)
-        normal = -_normals(field, facets.nodes)[nodes]
+        own_nodes, nodes = _parted(field, facets.nodes)
+        normal = -_normals(field, facets.nodes, own_nodes, len(nodes))
         viscous = np.einsum("nij,nj->ni", recovered[nodes], normal)
         smooth = viscous - field.pressure[nodes, None] * normal
         traction, method = smooth, RECOVERED
-        if facets.name != SIDES and _has_residual(run, field):
-            traction = _by_residual(run, field, facets, nodes)
+        if facets.is_body and _has_residual(run, field):
+            once, place = np.unique(nodes, return_inverse=True)
+            traction = _by_residual(run, field, facets, once)[place]
             method = RESIDUAL
-        force = _integral(run, field, facets, nodes, traction)
-        found.append(Surface(facets, nodes, normal, traction, smooth, viscous, method, force))
+        force = _integral(run, field, facets, own_nodes, traction)
+        found.append(
+            Surface(facets, nodes, own_nodes, normal, traction, smooth, viscous, method, force)
+        )
     return found
 
 
@@ -91,93 +86,31 @@ def with_quantity(run: Run, field: Field, quantity: str) -> Field:
         return derived.with_quantity(run, field, quantity)
     values = np.zeros(len(field.nodes))
     for one in surfaces_of(run, field):
-        own = one.recovered
-        if quantity == "wall-shear":
-            own = own - (own * one.normal).sum(axis=1, keepdims=True) * one.normal
-        values[one.nodes] = np.linalg.norm(own, axis=1)
+        # At corners the larger one: a wall, rather than an open side beside it
+        np.maximum.at(values, one.nodes, magnitude(one, quantity))
     return replace(field, derived=values)
 
 
-# ---- Which surface is whose ----------------------------------------------------------------------
+def magnitude(one: Surface, quantity: str) -> Array:
+    """Of the traction at the nodes of a surface, or of its tangential part, `(n,)`."""
+    return np.linalg.norm(one.recovered if quantity == "traction" else shear(one), axis=1)
 
 
-def facets_of(run: Run, field: Field) -> list[Facets]:
-    """The surfaces of bodies in their order, and all other ones together."""
-    every = _boundary(run, field)
-    is_side = on_sides(run, field, every) if run.is_spatial else None
-    is_side = np.zeros(len(every), dtype=bool) if is_side is None else is_side
-    part = np.full(len(every), -1)
-    part[~is_side] = _parts(every[~is_side], len(field.nodes))
-    owner = np.full(len(every), SIDES, dtype=object)
-    placed = bodies.poses(run, field.time)
-    d = field.nodes.shape[1]
-    extents = {
-        number: np.ptp(field.nodes[every[part == number]].reshape(-1, d), axis=0).max()
-        for number in range(part.max(initial=-1) + 1)
-    }
-    outer = max(extents, key=lambda number: extents[number], default=-1)
-    for number in extents:
-        points = field.nodes[every[part == number]].reshape(-1, d)
-        name = _owner(run, placed, points, is_outer=number == outer and not is_side.any())
-        if name is not None:
-            owner[part == number] = name
-    names = [name for name in placed if (owner == name).any()]
-    if (owner == SIDES).any():
-        names.append(SIDES)
-    return [Facets(name, every[owner == name]) for name in names]
+def shear(one: Surface) -> Array:
+    """The tangential part of the traction, `(n, d)`."""
+    along = (one.recovered * one.normal).sum(axis=1, keepdims=True)
+    return one.recovered - along * one.normal
 
 
-def _owner(
-    run: Run, placed: dict[str, bodies.Pose], points: Array, *, is_outer: bool
-) -> str | None:
-    """The nearest body that reaches all of some points `(n, d)`."""
-    best, least = None, np.inf
-    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    lengths = periods(run.case)[: points.shape[1]]
-    for name, (center, _) in placed.items():
-        own = center[: points.shape[1]]
-        # Of a periodic domain the mesh may have a body whole periods from where it is
-        turns = np.divide(middle - own, lengths, out=np.zeros(len(own)), where=lengths > 0)
-        own = own + np.round(turns) * lengths
-        reach = bodies.radius(run, name)
-        farthest = np.linalg.norm(points - own, axis=1).max()
-        is_near = farthest <= NEAR * reach if reach > 0.0 else not is_outer
-        away = float(np.linalg.norm(middle - own))
-        if is_near and away < least:
-            best, least = name, away
-    return best
-
-
-def _boundary(run: Run, field: Field) -> Array:
-    """Facets without those on an axis, and where a periodic mesh is cut open."""
-    if run.is_spatial:
-        every = boundary_faces(field)
-    else:
-        every = _edges(field)
-        if run.is_axisymmetric:
-            r = np.abs(field.nodes[every, 1]).max(axis=1)
-            every = every[r > derived.ON_AXIS * np.ptp(field.nodes, axis=0).max()]
-    lengths = periods(run.case)[: field.nodes.shape[1]]
-    if lengths.any():
-        every = every[~is_joined(field.nodes, lengths)[every].all(axis=1)]
-    return every
-
-
-def _edges(field: Field) -> Array:
-    every, is_boundary = edges(field.cells)
-    return every[is_boundary]
-
-
-def _parts(facets: Array, n_nodes: int) -> Array:
-    """A number for each facet, the same for those that hang together."""
-    label = np.arange(n_nodes)
-    while True:
-        least = label[facets].min(axis=1)
-        before = label.copy()
-        np.minimum.at(label, facets, least[:, None])
-        label = label[label]
-        if np.array_equal(label, before):
-            return np.unique(label[facets[:, 0]], return_inverse=True)[1]
+def chosen(run: Run, found: list[Surface], names: list[str]) -> list[Surface]:
+    """Those of some names; a KeyError says which there are."""
+    by_name = {one.facets.name: one for one in found}
+    for name in names:
+        if name not in by_name:
+            known = ", ".join(by_name) or "none"
+            why = sides.why_nameless(run) if SIDES in by_name else ""
+            raise asked.UnknownNameError(f"no side or body {name}; there are {known}{why}")
+    return [by_name[name] for name in dict.fromkeys(names)]
 
 
 # ---- Integrals -----------------------------------------------------------------------------------
@@ -206,14 +139,55 @@ def _vectors(places: Array, local: Array) -> Array:
     return np.cross(along[:, :, 0], along[:, :, 1])
 
 
-def _normals(field: Field, facets: Array) -> Array:
-    """Unit normals out of the fluid at nodes, `(n_nodes, d)`: means of facets by their areas."""
-    total = np.zeros(field.nodes.shape)
-    places = field.nodes[facets]
-    for k, local in enumerate(reference_nodes(field.nodes.shape[1] - 1)):
-        np.add.at(total, facets[:, k], _vectors(places, local))
+def _normals(field: Field, facets: Array, own: Array, n: int) -> Array:
+    """Unit normals out of the fluid at nodes, `(n, d)`: means of facets by their areas."""
+    total = np.zeros((n, field.nodes.shape[1]))
+    for k, vectors in enumerate(_at_nodes(field, facets)):
+        np.add.at(total, own[:, k], vectors)
     size = np.linalg.norm(total, axis=1, keepdims=True)
     return total / np.where(size > 0.0, size, 1.0)
+
+
+def _at_nodes(field: Field, facets: Array) -> list[Array]:
+    places = field.nodes[facets]
+    return [_vectors(places, local) for local in reference_nodes(field.nodes.shape[1] - 1)]
+
+
+def _parted(field: Field, facets: Array) -> tuple[Array, Array]:
+    """Nodes of facets `(m, k)` by numbers of their own, and the node that each of these is.
+
+    A node at which facets meet at an edge has one number for each side of it.
+    """
+    m, k = facets.shape
+    if m == 0:
+        return facets, np.zeros(0, dtype=int)
+    normal = np.stack(_at_nodes(field, facets), axis=1)
+    normal = normal / np.maximum(np.linalg.norm(normal, axis=2, keepdims=True), 1e-300)
+    corner = np.arange(m * k).reshape(m, k)
+    # What facets have in common: in the plane a vertex, in space an edge
+    edges = ((0,), (1,)) if k == 3 else ((0, 1, 3), (1, 2, 4), (0, 2, 5))
+    keys = np.concatenate([facets[:, edge[-1]] for edge in edges])
+    order = np.argsort(keys, kind="stable")
+    same = np.flatnonzero(keys[order[1:]] == keys[order[:-1]])
+    pairs = [np.column_stack([corner.ravel(), corner.ravel()])]
+    first, last = (
+        corner[(at % m)[:, None], np.array(edges)[at // m]] for at in (order[same], order[same + 1])
+    )
+    first, last = (
+        np.take_along_axis(one, np.argsort(facets.ravel()[one], axis=1), axis=1)
+        for one in (first, last)
+    )
+    flat = normal.reshape(m * k, -1)
+    is_smooth = (flat[first] * flat[last]).sum(axis=2) > np.cos(np.radians(CREASE))
+    pairs.append(np.column_stack([first[is_smooth], last[is_smooth]]))
+    label = parts(np.vstack(pairs), m * k)[: m * k]
+    # In the order of nodes, so that a surface without creases has them as they are
+    _, start, place = np.unique(label, return_index=True, return_inverse=True)
+    nodes = facets.ravel()[start]
+    order = np.argsort(nodes, kind="stable")
+    number = np.empty(len(order), dtype=int)
+    number[order] = np.arange(len(order))
+    return number[place].reshape(m, k), nodes[order]
 
 
 def _around(run: Run, places: Array) -> Array:
@@ -223,16 +197,14 @@ def _around(run: Run, places: Array) -> Array:
     return np.ones(len(places))
 
 
-def _integral(run: Run, field: Field, facets: Facets, nodes: Array, values: Array) -> Array:
-    nodal = np.zeros((len(field.nodes), values.shape[1]))
-    nodal[nodes] = values
+def _integral(run: Run, field: Field, facets: Facets, own: Array, values: Array) -> Array:
     places = field.nodes[facets.nodes]
     total = np.zeros(values.shape[1])
     for local, weight in zip(*_rule(places.shape[2] - 1), strict=True):
         shape = weights(local[None])[0]
         area = weight * np.linalg.norm(_vectors(places, local), axis=1)
         area = area * _around(run, np.einsum("k,mki->mi", shape, places))
-        total += area @ np.einsum("k,mki->mi", shape, nodal[facets.nodes])
+        total += area @ np.einsum("k,mki->mi", shape, values[own])
     if run.is_axisymmetric:
         # What points away from the axis adds up to nothing around it
         total[1] = 0.0
@@ -296,7 +268,7 @@ def _buoyancy(run: Run, field: Field, facets: Facets, drive: Array) -> Array:
 
 
 def _boundary_nodes(run: Run, field: Field) -> Array:
-    every = boundary_faces(field) if run.is_spatial else _edges(field)
+    every = boundary_faces(field) if run.is_spatial else boundary_edges(field)
     return np.unique(every)
 
 
