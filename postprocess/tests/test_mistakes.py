@@ -82,7 +82,8 @@ def test_choices_are_listed(planar_run: Run) -> None:
         return message(ValueError, lambda: figure.picture(planar_run, **options))
 
     assert drawn(quantity="velocity") == (
-        "no quantity velocity; there are speed, pressure, vorticity, shear-rate, q, mesh"
+        "no quantity velocity; there are speed, pressure, vorticity, shear-rate, q, mesh, "
+        "traction, wall-shear"
     )
     assert drawn(lines="streamline").endswith("there are streamlines, arrows, none")
     assert drawn(painter="mpl") == "no painter mpl; there are auto, vtk, matplotlib"
