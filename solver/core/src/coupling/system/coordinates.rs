@@ -58,7 +58,9 @@ impl<const D: usize> FluidSystem<D> {
         timing: &mut Timing,
     ) -> Result<(), SolveError> {
         let has_coordinates = !at.bodies.flexible.is_empty() && self.nullspace.is_none();
-        if !has_coordinates || !self.linear.is_factorised() {
+        // A stiff one on a body that starts from rest may lead away from there
+        let is_attached = at.problem.bodies.iter().any(|body| body.attachment.is_some());
+        if !has_coordinates || is_attached || !self.linear.is_factorised() {
             return Ok(());
         }
         let unknowns =
