@@ -58,7 +58,7 @@ impl ClosedSpline {
         let directions = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(Point::<2>::from);
         let mut cuts = [0.0; 5];
         for (k, direction) in directions.iter().enumerate() {
-            let s = extreme(&spline, (&samples, &places), *direction);
+            let s = extreme(&spline, &samples, &places, *direction);
             // A simple counter-clockwise loop meets its extremes in this order
             cuts[k] = if k > 0 && s < cuts[0] { s + spline.period() } else { s };
         }
@@ -140,7 +140,7 @@ fn foot_on_spline(spline: &Spline, mut low: f64, mut high: f64, start: f64, x: P
 }
 
 /// Parameter of the point of the spline farthest in a direction, near one of these parameters of points.
-fn extreme(spline: &Spline, (samples, places): (&[f64], &[Point<2>]), direction: Point<2>) -> f64 {
+fn extreme(spline: &Spline, samples: &[f64], places: &[Point<2>], direction: Point<2>) -> f64 {
     let n = samples.len();
     let mut top = (0, f64::NEG_INFINITY);
     for (i, place) in places.iter().enumerate() {

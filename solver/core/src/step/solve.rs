@@ -69,11 +69,7 @@ impl<const D: usize> StepContext<'_, D> {
             is_damped: equations.shears_by_newton(),
             // Later passes correct what the first one leaves
             scale: guess.scale.filter(|_| self.stepper.problem.n_coordinates() > 0),
-            tangents: if equations.has_linear_flow() {
-                of_step.tangents
-            } else {
-                Tangents::OfSystem
-            },
+            tangents: if equations.has_linear_flow() { of_step.tangents } else { Tangents::System },
             ..of_step
         };
         newton(system, timing, &at, &equations, &criterion, start)

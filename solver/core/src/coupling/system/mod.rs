@@ -6,6 +6,7 @@
 //! interface stress, no multiplier, and no added-mass instability at any density ratio.
 
 mod adjoint;
+mod coordinates;
 mod diagnosis;
 mod given_loads;
 mod linearise;

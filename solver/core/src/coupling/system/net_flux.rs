@@ -12,6 +12,12 @@ use super::{Configuration, FluidSystem};
 use crate::space::CellValues;
 use crate::timing::Timing;
 
+/// The weight of the velocity of a node in a flux.
+struct FluxWeight<const D: usize> {
+    node: NodeId,
+    weight: Point<D>,
+}
+
 impl<const D: usize> FluidSystem<D> {
     /// Gives free unknowns, after a step of Newton's method from a solution, the net flux that their source is of.
     ///
@@ -37,7 +43,7 @@ impl<const D: usize> FluidSystem<D> {
         };
         let weights = self.flux_weights(at.mesh);
         let flux = |velocity: &dyn Fn(usize) -> f64| -> f64 {
-            let of_node = |(node, weight): &(NodeId, Point<D>)| -> f64 {
+            let of_node = |FluxWeight { node, weight }: &FluxWeight<D>| -> f64 {
                 let raw = |axis: usize| self.layout.velocity(*node, axis);
                 (0..D).map(|axis| weight[axis] * velocity(raw(axis))).sum()
             };
@@ -56,7 +62,7 @@ impl<const D: usize> FluidSystem<D> {
     }
 
     /// Weights of the velocities of nodes on bodies with coordinates in the sum of the continuity equations (m2; m planar).
-    fn flux_weights(&self, mesh: &Mesh<D>) -> Vec<(NodeId, Point<D>)> {
+    fn flux_weights(&self, mesh: &Mesh<D>) -> Vec<FluxWeight<D>> {
         let tables = self.assembly.tables();
         let mut weights: Vec<Option<Point<D>>> = vec![None; mesh.n_nodes()];
         for node in self.rest_places.keys() {
@@ -82,7 +88,10 @@ impl<const D: usize> FluidSystem<D> {
             });
         }
         let all = weights.into_iter().enumerate();
-        all.filter_map(|(node, weight)| Some((NodeId::new(node), weight?))).collect()
+        let of_node = |(node, weight): (usize, Option<Point<D>>)| {
+            Some(FluxWeight { node: NodeId::new(node), weight: weight? })
+        };
+        all.filter_map(of_node).collect()
     }
 
     /// A source of one, spread over the fluid as a net flux is, in the rows of the raw residual.

@@ -11,12 +11,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::super::error::SolveError;
 use super::super::flexible_equation::FlexibleEquation;
-use super::{Configuration, FluidSystem};
-use crate::algebra::Term;
+use crate::algebra::{AffineConstraints, Term};
 use crate::space::DofLayout;
-use crate::timing::Timing;
 
 /// Most iterations for the rates of coordinates.
 const MOST_ITERATIONS: usize = 12;
@@ -27,18 +24,18 @@ const CONVERGED: f64 = 1e-9;
 #[derive(Debug, Default)]
 pub(super) struct RateResponse {
     /// Derivatives in the matrix, body by body; empty where they are to be taken again.
-    tangents: Vec<DMatrix<f64>>,
+    pub tangents: Vec<DMatrix<f64>>,
     /// With the last factors that these are in.
-    factorised: Option<Factorised>,
+    pub factorised: Option<Factorised>,
 }
 
 /// What is known from factors.
 #[derive(Debug)]
-struct Factorised {
+pub(super) struct Factorised {
     /// The block of the inverse in the unknowns that rates depend on.
-    inverse: DMatrix<f64>,
+    pub inverse: DMatrix<f64>,
     /// The flow that a source makes which is spread over an enclosed fluid.
-    source: Option<Vec<f64>>,
+    pub source: Option<Vec<f64>>,
 }
 
 impl RateResponse {
@@ -66,19 +63,31 @@ impl RateResponse {
     }
 }
 
+/// An entry of a matrix.
+struct Entry {
+    row: usize,
+    column: usize,
+    value: f64,
+}
+
 /// The equations of the coordinates of all bodies in the unknowns y that they depend on.
-struct CoordinateEquations<'a> {
+pub(super) struct CoordinateEquations<'a> {
     equations: &'a [FlexibleEquation],
     /// The unknowns, ascending.
-    unknowns: Vec<usize>,
+    pub unknowns: Vec<usize>,
     /// Each rate: weights of the unknowns by their positions, and what is given of it.
     rates: Vec<(Vec<(usize, f64)>, f64)>,
 }
 
 impl<'a> CoordinateEquations<'a> {
-    fn new<const D: usize>(at: &Configuration<'a, D>, layout: &DofLayout<D>) -> Self {
+    /// Those of these bodies under constraints.
+    pub fn new<const D: usize>(
+        equations: &'a [FlexibleEquation],
+        constraints: &AffineConstraints,
+        layout: &DofLayout<D>,
+    ) -> Self {
         let raw = (0..layout.n_coordinates).map(|coordinate| layout.rate(coordinate));
-        let row = |raw: usize| (at.constraints.row(raw), at.constraints.value(raw));
+        let row = |raw: usize| (constraints.row(raw), constraints.value(raw));
         let rows: Vec<(&[Term<u32>], f64)> = raw.map(row).collect();
         let mut unknowns: Vec<usize> = rows
             .iter()
@@ -94,7 +103,7 @@ impl<'a> CoordinateEquations<'a> {
             .into_iter()
             .map(|(terms, given)| (terms.iter().filter_map(position).collect(), given))
             .collect();
-        Self { equations: &at.bodies.flexible, unknowns, rates }
+        Self { equations, unknowns, rates }
     }
 
     fn rates(&self, y: &DVector<f64>) -> Vec<f64> {
@@ -119,14 +128,19 @@ impl<'a> CoordinateEquations<'a> {
     }
 
     /// Derivatives by the unknowns that are not zero, from those by all rates, body by body.
-    fn reduced(&self, tangents: &[DMatrix<f64>]) -> Vec<(usize, usize, f64)> {
+    fn reduced(&self, tangents: &[DMatrix<f64>]) -> Vec<Entry> {
         let mut entries = Vec::new();
         for (equation, tangent) in self.equations.iter().zip(tangents) {
             let own = &self.rates[equation.first..equation.first + tangent.nrows()];
             for (column, (by, _)) in tangent.column_iter().zip(own) {
                 for (value, (of, _)) in column.iter().zip(own).filter(|(value, _)| **value != 0.0) {
                     for (j, right) in by {
-                        entries.extend(of.iter().map(|(i, left)| (*i, *j, left * value * right)));
+                        let entry = |(i, left): &(usize, f64)| Entry {
+                            row: *i,
+                            column: *j,
+                            value: left * value * right,
+                        };
+                        entries.extend(of.iter().map(entry));
                     }
                 }
             }
@@ -140,7 +154,7 @@ impl<'a> CoordinateEquations<'a> {
     }
 
     /// The forces e(y) at the solution of y = `linear` - G e(y); none where it is not found.
-    fn beyond_linear(
+    pub fn beyond_linear(
         &self,
         [start, linear]: [&DVector<f64>; 2],
         kept: &[DMatrix<f64>],
@@ -150,8 +164,8 @@ impl<'a> CoordinateEquations<'a> {
         let derivatives = self.reduced(kept);
         let beyond = |y: &DVector<f64>| {
             let mut beyond = self.lack(y) - &at_start;
-            for (i, j, value) in &derivatives {
-                beyond[*i] -= value * (y[*j] - start[*j]);
+            for Entry { row, column, value } in &derivatives {
+                beyond[*row] -= value * (y[*column] - start[*column]);
             }
             beyond
         };
@@ -161,8 +175,8 @@ impl<'a> CoordinateEquations<'a> {
             let mut changed = self.tangents(&y);
             changed.iter_mut().zip(kept).for_each(|(tangent, kept)| *tangent -= kept);
             let mut by_rates = DMatrix::identity(y.len(), y.len());
-            for (i, j, value) in self.reduced(&changed) {
-                by_rates.column_mut(j).axpy(value, &inverse.column(i), 1.0);
+            for Entry { row, column, value } in self.reduced(&changed) {
+                by_rates.column_mut(column).axpy(value, &inverse.column(row), 1.0);
             }
             let change = by_rates.lu().solve(&off)?;
             y -= &change;
@@ -175,75 +189,5 @@ impl<'a> CoordinateEquations<'a> {
             }
         }
         None
-    }
-}
-
-impl<const D: usize> FluidSystem<D> {
-    /// Whether factors are kept with the derivatives of the equations of coordinates.
-    #[must_use]
-    pub fn keeps_factors(&self) -> bool {
-        self.rate_response.is_kept()
-    }
-
-    /// Has the next system take the derivatives of the equations of coordinates again.
-    pub fn renew_tangents(&mut self) {
-        self.rate_response = RateResponse::default();
-    }
-
-    /// Gives free unknowns, after the change by a linear system, what the equations of coordinates ask for beyond that.
-    pub(super) fn follow_coordinates(
-        &mut self,
-        at: &Configuration<'_, D>,
-        by_system: &[f64],
-        free: &mut [f64],
-        timing: &mut Timing,
-    ) {
-        let equations = CoordinateEquations::new(at, &self.layout);
-        let unknowns = &equations.unknowns;
-        let RateResponse { tangents, factorised } = &self.rate_response;
-        let Some(Factorised { inverse, .. }) = factorised else { return };
-        let own = |all: &[f64]| {
-            DVector::from_iterator(unknowns.len(), unknowns.iter().map(|at| all[*at]))
-        };
-        let linear = own(free);
-        let start = &linear - own(by_system);
-        let Some(beyond) = equations.beyond_linear([&start, &linear], tangents, inverse) else {
-            return;
-        };
-        let mut change = vec![0.0; free.len()];
-        for (unknown, force) in unknowns.iter().zip(beyond.iter()) {
-            change[*unknown] = -force;
-        }
-        if self.linear.substitute(&mut change, timing) {
-            free.iter_mut().zip(&change).for_each(|(value, change)| *value += change);
-        }
-    }
-
-    /// Takes note of how rates of coordinates answer to forces where the matrix has factors.
-    ///
-    /// # Errors
-    /// When the matrix is singular.
-    pub(super) fn keep_response(
-        &mut self,
-        at: &Configuration<'_, D>,
-        timing: &mut Timing,
-    ) -> Result<(), SolveError> {
-        let has_coordinates = !at.bodies.flexible.is_empty() && self.nullspace.is_none();
-        if !has_coordinates || !self.linear.is_factorised() {
-            return Ok(());
-        }
-        let unknowns = CoordinateEquations::new(at, &self.layout).unknowns;
-        if unknowns.is_empty() {
-            return Ok(());
-        }
-        let inverse = self.linear.inverse_of(&unknowns, timing)?;
-        let inverse = DMatrix::from_column_slice(unknowns.len(), unknowns.len(), &inverse);
-        let source = at.problem.is_enclosed().then(|| {
-            let mut answer = at.constraints.restrict(&self.unit_source());
-            self.linear.substitute(&mut answer, timing);
-            answer
-        });
-        self.rate_response.factorised = Some(Factorised { inverse, source });
-        Ok(())
     }
 }

@@ -128,7 +128,7 @@ impl Criterion {
             is_damped: false,
             divergence: None,
             forcing: if is_linear { Forcing::OfStep { first, least } } else { Forcing::Inexact },
-            tangents: if first.is_some() { Tangents::OfStep } else { Tangents::OfPass },
+            tangents: if first.is_some() { Tangents::Step } else { Tangents::Pass },
         }
     }
 }

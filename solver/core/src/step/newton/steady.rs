@@ -281,7 +281,7 @@ impl<const D: usize> Continuation<'_, D> {
             is_damped: !is_linear && !is_newtonian,
             divergence: Some(DIVERGENCE),
             forcing: if is_linear { Forcing::ToTolerance } else { Forcing::Inexact },
-            tangents: Tangents::OfSystem,
+            tangents: Tangents::System,
         };
         let equations = SteadyEquations { problem: self.problem, parts, stop: self.task.stop };
         let Workspace { system, timing, .. } = work;

@@ -4,11 +4,11 @@
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tangents {
     /// For one linear system: the fluid changes its own part of the next one.
-    OfSystem,
+    System,
     /// From the first linear system on, which takes new ones.
-    OfPass,
+    Pass,
     /// From an earlier pass of the same step.
-    OfStep,
+    Step,
 }
 
 impl Tangents {
@@ -18,9 +18,9 @@ impl Tangents {
     /// Whether new ones are taken after so many linear systems.
     pub fn are_renewed(self, systems: usize) -> bool {
         match self {
-            Self::OfSystem => true,
-            Self::OfPass => systems == 0 || systems >= Self::KEPT,
-            Self::OfStep => systems >= Self::KEPT,
+            Self::System => true,
+            Self::Pass => systems == 0 || systems >= Self::KEPT,
+            Self::Step => systems >= Self::KEPT,
         }
     }
 }

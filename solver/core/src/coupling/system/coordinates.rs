@@ -1,0 +1,81 @@
+//! Systems of fluid and bodies with coordinates: what the equations of these ask for beyond the linear ones.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::super::error::SolveError;
+use super::rate_response::{CoordinateEquations, Factorised, RateResponse};
+use super::{Configuration, FluidSystem};
+use crate::timing::Timing;
+
+impl<const D: usize> FluidSystem<D> {
+    /// Whether factors are kept with the derivatives of the equations of coordinates.
+    #[must_use]
+    pub fn keeps_factors(&self) -> bool {
+        self.rate_response.is_kept()
+    }
+
+    /// Has the next system take the derivatives of the equations of coordinates again.
+    pub fn renew_tangents(&mut self) {
+        self.rate_response = RateResponse::default();
+    }
+
+    /// Gives free unknowns, after the change by a linear system, what the equations of coordinates ask for beyond that.
+    pub(super) fn follow_coordinates(
+        &mut self,
+        at: &Configuration<'_, D>,
+        by_system: &[f64],
+        free: &mut [f64],
+        timing: &mut Timing,
+    ) {
+        let equations = CoordinateEquations::new(&at.bodies.flexible, at.constraints, &self.layout);
+        let unknowns = &equations.unknowns;
+        let RateResponse { tangents, factorised } = &self.rate_response;
+        let Some(Factorised { inverse, .. }) = factorised else { return };
+        let own = |all: &[f64]| {
+            DVector::from_iterator(unknowns.len(), unknowns.iter().map(|at| all[*at]))
+        };
+        let linear = own(free);
+        let start = &linear - own(by_system);
+        let Some(beyond) = equations.beyond_linear([&start, &linear], tangents, inverse) else {
+            return;
+        };
+        let mut change = vec![0.0; free.len()];
+        for (unknown, force) in unknowns.iter().zip(beyond.iter()) {
+            change[*unknown] = -force;
+        }
+        if self.linear.substitute(&mut change, timing) {
+            free.iter_mut().zip(&change).for_each(|(value, change)| *value += change);
+        }
+    }
+
+    /// Takes note of how rates of coordinates answer to forces where the matrix has factors.
+    ///
+    /// # Errors
+    /// When the matrix is singular.
+    pub(super) fn keep_response(
+        &mut self,
+        at: &Configuration<'_, D>,
+        timing: &mut Timing,
+    ) -> Result<(), SolveError> {
+        let has_coordinates = !at.bodies.flexible.is_empty() && self.nullspace.is_none();
+        // A stiff one on a body that starts from rest may lead away from there
+        let is_attached = at.problem.bodies.iter().any(|body| body.attachment.is_some());
+        if !has_coordinates || is_attached || !self.linear.is_factorised() {
+            return Ok(());
+        }
+        let unknowns =
+            CoordinateEquations::new(&at.bodies.flexible, at.constraints, &self.layout).unknowns;
+        if unknowns.is_empty() {
+            return Ok(());
+        }
+        let inverse = self.linear.inverse_of(&unknowns, timing)?;
+        let inverse = DMatrix::from_column_slice(unknowns.len(), unknowns.len(), &inverse);
+        let source = at.problem.is_enclosed().then(|| {
+            let mut answer = at.constraints.restrict(&self.unit_source());
+            self.linear.substitute(&mut answer, timing);
+            answer
+        });
+        self.rate_response.factorised = Some(Factorised { inverse, source });
+        Ok(())
+    }
+}
