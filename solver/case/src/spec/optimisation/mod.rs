@@ -70,7 +70,7 @@ pub struct ObjectiveExpression {
 }
 
 impl FlowObjective {
-    /// The quantities it is made of, with the key of each in its table, and none twice.
+    /// The quantities it is made of, with the key of each in its table.
     #[must_use]
     pub fn quantities(&self) -> Vec<NamedQuantity<'_>> {
         let all: Vec<NamedQuantity<'_>> = match self {
