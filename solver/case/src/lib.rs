@@ -61,10 +61,9 @@ pub use spec::fluid::{FlowModel, Fluid};
 pub use spec::formula::{Definitions, Formula, FormulaError, ParsedFormula};
 pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
-pub use spec::mesh_file::MeshFile;
+pub use spec::mesh_file::{MeshFile, NamedSolid, RegionSpec, SidePart};
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
 pub use spec::reduced::{AddedMassSpec, Coefficient, LoadLaw, ReducedSpec};
-pub use spec::region::{NamedSolid, RegionSpec, SidePart};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };

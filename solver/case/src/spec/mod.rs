@@ -16,7 +16,6 @@ pub(crate) mod mesh_file;
 pub mod number;
 pub(crate) mod output;
 pub(crate) mod reduced;
-pub(crate) mod region;
 pub(crate) mod time;
 mod time_function;
 pub(crate) mod units;
