@@ -86,8 +86,8 @@ impl Region {
     }
 
     /// Unit normals into the region at the vertices of each sheet.
-    fn normals(&self) -> BTreeMap<(u32, usize), Point<3>> {
-        let mut normals: BTreeMap<(u32, usize), Point<3>> = BTreeMap::new();
+    fn normals(&self) -> BTreeMap<[usize; 2], Point<3>> {
+        let mut normals: BTreeMap<[usize; 2], Point<3>> = BTreeMap::new();
         for (triangle, vertices) in self.mesh.triangles.iter().enumerate() {
             let corners = self.mesh.corners(triangle);
             let sheet = self.sheets[triangle];
@@ -95,10 +95,10 @@ impl Region {
             for local in 0..3 {
                 let [to, from] = [1, 2].map(|step| corners[(local + step) % 3] - corners[local]);
                 let angle = to.cross(&from).norm().atan2(to.dot(&from));
-                *normals.entry((vertices[local], sheet)).or_default() += normal * angle;
+                *normals.entry([vertices[local] as usize, sheet]).or_default() += normal * angle;
             }
         }
-        for ((_, sheet), normal) in &mut normals {
+        for ([_, sheet], normal) in &mut normals {
             let own = self.planes[*sheet].map(|[_, normal]| normal);
             *normal = own.or_else(|| normal.try_normalize(0.0)).unwrap_or(*normal);
         }
@@ -115,7 +115,7 @@ impl Region {
                 beside.iter().map(|one| self.sheets[one.triangle]).collect();
             sheets.dedup();
             for sheet in sheets {
-                let [m, n] = [from, to].map(|end| normals[&(end, sheet)]);
+                let [m, n] = [from, to].map(|end| normals[&[end as usize, sheet]]);
                 let way = b - a;
                 // As of PN triangles (@vlachos2001)
                 wanted.push([m + n, (n * way.dot(&n) - m * way.dot(&m)) / 8.0]);
@@ -187,7 +187,7 @@ impl Region {
             for local in 0..3 {
                 let next = (local + 1) % 3;
                 let length = (corners[next] - corners[local]).norm();
-                let [m, n] = [local, next].map(|i| normals[&(vertices[i], sheet)]);
+                let [m, n] = [local, next].map(|i| normals[&[vertices[i] as usize, sheet]]);
                 curvature = curvature.max((m - n).norm() / length);
                 shortest = shortest.min(length);
             }

@@ -65,7 +65,7 @@ pub use spec::fluid::{FlowModel, Fluid};
 pub use spec::formula::{Definitions, Formula, FormulaError, ParsedFormula};
 pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
-pub use spec::mesh_file::MeshFile;
+pub use spec::mesh_file::{MeshFile, NamedSolid, RegionSpec, SidePart};
 pub use spec::optimisation::{
     FlowObjective, FlowOptimisation, FlowParameter, NamedQuantity, ObjectiveExpression,
     OptimumReference, SearchSettings, WeightedQuantity,
@@ -76,7 +76,6 @@ pub use spec::reduced::parts::{
     BuoyancySpec, CalibratedSpec, ConnectionSpec, LagSpec, ThrusterSpec,
 };
 pub use spec::reduced::{AddedMassSpec, ReducedSpec};
-pub use spec::region::{NamedSolid, RegionSpec, SidePart};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };

@@ -13,7 +13,6 @@ mod parts;
 mod probes;
 pub(crate) mod random;
 pub(crate) mod region;
-mod sizing;
 pub(crate) mod speed;
 
 use std::collections::HashMap;

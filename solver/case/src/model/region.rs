@@ -1,6 +1,6 @@
-//! The domain of a case: its extent, its named sides, and the planar domain to be meshed.
+//! The domain of a case: its extent, its named sides, the planar domain to be meshed, and sizes.
 
-use alewife_mesh::Domain;
+use alewife_mesh::{Domain, Point, SizeBox, Sizing};
 
 use crate::spec::extent::Extent;
 use crate::spec::mesh_file::MeshFile;
@@ -168,6 +168,41 @@ impl Case {
             DomainSpec::Disc { center, radius } => Domain::Disc { center: center.into(), radius },
             DomainSpec::HalfDisc { center, radius } => Domain::HalfDisc { center, radius },
             DomainSpec::Cylinder { x, radius } => Domain::Cylinder { x, radius, periodic_x },
+        }
+    }
+}
+
+/// Angle by which an outline turns along one edge at most (rad), however large its size.
+const LARGEST_TURN: f64 = 0.5;
+
+impl Case {
+    /// The wanted cell sizes.
+    #[must_use]
+    pub fn sizing<const D: usize>(&self) -> Sizing<D> {
+        let mesh = &self.mesh;
+        // `check` makes sure that there is a number for each dimension
+        let corner = |given: &[f64]| {
+            Point::<D>::from_fn(|axis, _| given.get(axis).copied().unwrap_or(f64::NAN))
+        };
+        let boxes = mesh.boxes.iter().map(|refined| SizeBox {
+            min: corner(&refined.min),
+            max: corner(&refined.max),
+            size: refined.size * mesh.scale,
+        });
+        Sizing {
+            size: mesh.size * mesh.scale,
+            surface: mesh.surface.unwrap_or(mesh.size) * mesh.scale,
+            sides: mesh
+                .sides
+                .iter()
+                .map(|(name, size)| (name.clone(), size * mesh.scale))
+                .collect(),
+            // A finer mesh has the same shape: more layers in gaps, slower growth
+            growth: mesh.growth * mesh.scale,
+            gap_layers: mesh.layers_when_new(),
+            turn: LARGEST_TURN * mesh.scale,
+            boxes: boxes.collect(),
+            curved: mesh.curved,
         }
     }
 }

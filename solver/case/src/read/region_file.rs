@@ -9,8 +9,7 @@ use alewife_mesh::spatial::{
 use alewife_mesh::{MeshError, Point, Sizing};
 
 use super::read_mesh::{Unreadable, bytes_of};
-use crate::spec::mesh_file::{Contents, MeshFile};
-use crate::spec::region::{NamedSolid, RegionSpec, SidePart};
+use crate::spec::mesh_file::{Contents, MeshFile, NamedSolid, RegionSpec, SidePart};
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
 use crate::{Case, DomainSpec, Geometry};
 

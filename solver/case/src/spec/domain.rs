@@ -4,8 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::body::command::Command;
 use super::formula::Formula;
-use super::mesh_file::MeshFile;
-use super::region::RegionSpec;
+use super::mesh_file::{MeshFile, RegionSpec};
 #[cfg(test)]
 use crate::spec::number::{FormulaPerDimension, NonNegative, NonZero, PerDimension, Positive};
 

@@ -1,5 +1,6 @@
-//! `MeshFile`: a domain that is given as a mesh made by Gmsh, and what is known of its sides.
+//! `MeshFile` and `RegionSpec`: domains that are given as a mesh of Gmsh, or as a closed surface.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use alewife_mesh::spatial::Imported;
@@ -7,6 +8,8 @@ use alewife_mesh::{Bounds, DomainMesh, Mesh, MshError, MshOptions, SideShape};
 use serde::{Deserialize, Serialize};
 
 use super::extent::Extent;
+#[cfg(test)]
+use crate::spec::number::{Degrees, Positive};
 
 /// `domain.mesh`: a mesh in a file.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -177,5 +180,75 @@ impl MeshFile {
     #[must_use]
     pub fn bytes(&self) -> Option<&[u8]> {
         self.contents.as_ref()?.bytes.as_deref()
+    }
+}
+
+/// `domain.surface`: the inside of a closed surface, from an STL, OBJ or PLY file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RegionSpec {
+    /// Path of the file, relative to the file in which it is written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// The triangles of the file, as runs write them in its place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub data: Option<String>,
+    /// The solids of an STL file as text, or the groups of an OBJ file, as runs write them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub solids: Vec<NamedSolid>,
+    /// Factor that makes its lengths those of the case (1).
+    #[serde(default = "one")]
+    #[cfg_attr(test, schemars(with = "Positive"))]
+    pub scale: f64,
+    /// Largest angle by which a smooth wall turns at an edge of triangles (degrees); sharper edges stay sharp.
+    #[serde(default = "smooth")]
+    #[cfg_attr(test, schemars(with = "Degrees"))]
+    pub smooth: f64,
+    /// Sides by their names; triangles of none of them are on the side of the name of their solid, or on `wall`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sides: BTreeMap<String, SidePart>,
+    /// Its mesh, once it is read.
+    #[serde(skip)]
+    #[cfg_attr(test, schemars(skip))]
+    pub(crate) filled: Option<MeshFile>,
+}
+
+fn smooth() -> f64 {
+    30.0
+}
+
+/// Triangles of a file that have one name.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct NamedSolid {
+    /// Their name.
+    pub name: String,
+    /// How many there are.
+    pub triangles: usize,
+}
+
+/// The part of a surface that is a side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum SidePart {
+    /// The triangles in a plane.
+    Plane {
+        /// A point of the plane (m).
+        point: [f64; 3],
+        /// A direction across it.
+        normal: [f64; 3],
+    },
+    /// The triangles of a solid of an STL file as text, or of a group of an OBJ file.
+    Solid(String),
+}
+
+impl RegionSpec {
+    /// Its mesh; `None` where it has not been read.
+    #[must_use]
+    pub fn mesh(&self) -> Option<&MeshFile> {
+        self.filled.as_ref()
     }
 }

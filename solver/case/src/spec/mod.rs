@@ -18,7 +18,6 @@ pub mod number;
 pub(crate) mod optimisation;
 pub(crate) mod output;
 pub(crate) mod reduced;
-pub(crate) mod region;
 pub(crate) mod time;
 mod time_function;
 pub(crate) mod units;
