@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 34] = [
+const ROOMS: [(&str, &[&str]); 35] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -80,6 +80,7 @@ const ROOMS: [(&str, &[&str]); 34] = [
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
     ("runner", &["case", "observer", "run", "step", "validation"]),
+    ("environment", &["case", "reduced", "run", "runner", "step"]),
     (
         "cli",
         &[

@@ -4,8 +4,10 @@ mod build;
 mod error;
 mod inertia;
 mod measure;
+mod play;
 mod simulate;
 mod swimmer;
 
 pub use error::ReducedError;
+pub use play::{Player, Playing, Scratch};
 pub use simulate::simulate;

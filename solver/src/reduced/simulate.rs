@@ -1,6 +1,6 @@
 //! The motion of a reduced model of a case, as the series of its quantities.
 
-use alewife_reduced::tree::{Drift, Scheme, State, Stepper};
+use alewife_reduced::tree::{Drift, Scheme, State, Stepper, compiled};
 
 use super::ReducedError;
 use super::build::Reduced;
@@ -94,8 +94,10 @@ pub fn simulate(model: &Model) -> Result<Series, ReducedError> {
         let end = if number == n_steps { time.end } else { time.step * number as f64 };
         let step = end - state.time;
         match &mut mover {
-            Mover::Steps(stepper) => stepper.step(&reduced.tree, &mut state, step, &command)?,
-            Mover::Drift(drift) => drift.step(&mut state, step, &command)?,
+            Mover::Steps(stepper) => {
+                compiled::advance(stepper, &reduced.tree, &mut state, step, &command)?;
+            }
+            Mover::Drift(drift) => compiled::drift(drift, &mut state, step, &command)?,
         }
         state.time = end;
         rows.add(&reduced, &state, step);

@@ -106,6 +106,27 @@ impl CaseFile {
         self.numbers().into_iter().map(|number| number.path).collect()
     }
 
+    /// The same case with other numbers, by their keys.
+    ///
+    /// # Errors
+    /// [`CaseError::Wrong`] where a key can have no number, or the case makes no sense with it.
+    pub fn with_numbers(&self, numbers: &[(&str, f64)]) -> Result<Self, CaseError> {
+        let mut root = self.root.clone();
+        for (path, value) in numbers {
+            let text = format!("{path}={value:?}");
+            let setting::Setting { path, value } = setting::read(&root, &text).map_err(wrong)?;
+            root.set(&path, value).map_err(wrong)?;
+        }
+        UntypedCase {
+            names: [self.name.clone(), self.file.clone()],
+            variant: self.variant.clone(),
+            variants: self.variants.clone(),
+            root,
+            sweep: None,
+        }
+        .typed()
+    }
+
     /// Name and variant: `sphere-in-tube/free-0.5`.
     #[must_use]
     pub fn full_name(&self) -> String {

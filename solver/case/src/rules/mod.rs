@@ -10,6 +10,7 @@ mod command;
 mod contact;
 mod declared;
 mod drive;
+mod environment;
 mod expressions;
 mod extremes;
 mod field;
@@ -58,6 +59,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     time::check(&mut findings);
     references::check(&mut findings);
     reduced::check(&mut findings);
+    environment::check(&mut findings, file);
     extremes::check(&mut findings, file);
     if findings.has_no_error() {
         cells::check(&mut findings);

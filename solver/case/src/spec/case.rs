@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, FlowModel, Fluid, Geometry,
-    InitialFlow, Joint, LoadLaw, MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe,
-    ReducedSpec, Reference, Scales, Statistics, SwimmerSpec, TimeSettings, Units, Variant,
+    Body, BoundaryCondition, ContactSpec, DomainSpec, EnvironmentSpec, FieldSpec, FlowModel, Fluid,
+    Geometry, InitialFlow, Joint, LoadLaw, MagneticSpec, MeanFlowSpec, MeshSettings, Numbers,
+    Output, Probe, ReducedSpec, Reference, Scales, Statistics, SwimmerSpec, TimeSettings, Units,
+    Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -62,6 +63,9 @@ pub struct Case {
     /// The reduced model, for runs with `--fidelity reduced`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedSpec>,
+    /// The case as a task for a controller that learns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub environment: Option<EnvironmentSpec>,
     /// Cell sizes.
     pub mesh: MeshSettings,
     /// Steady solution or time steps.

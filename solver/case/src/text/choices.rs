@@ -3,8 +3,9 @@
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 32] = [
+pub const CHOICES: [&str; 33] = [
     "kind",
+    "law",
     "length",
     "angle",
     "torque",

@@ -36,6 +36,18 @@ impl fmt::Display for FormulaError {
 
 impl std::error::Error for FormulaError {}
 
+/// What names in an expression may stand for.
+#[derive(Debug, Clone, Copy)]
+pub enum Known<'a> {
+    /// Coordinates and the time.
+    Place {
+        /// How many coordinates there are.
+        dimensions: usize,
+    },
+    /// Variables, whose names are in brackets.
+    Names(&'a [String]),
+}
+
 /// A token, and the character at which it begins, from 1.
 #[derive(Debug, Clone, PartialEq)]
 struct Placed {
@@ -63,6 +75,8 @@ const fn operator(sign: &'static str, function: Function) -> Operator {
 enum Token {
     Number(f64),
     Name(String),
+    /// What is in brackets.
+    Bracketed(String),
     Sign(&'static str),
     End,
 }
@@ -71,7 +85,7 @@ impl fmt::Display for Token {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(value) => write!(formatter, "`{value}`"),
-            Self::Name(name) => write!(formatter, "`{name}`"),
+            Self::Name(name) | Self::Bracketed(name) => write!(formatter, "`{name}`"),
             Self::Sign(sign) => write!(formatter, "`{sign}`"),
             Self::End => formatter.write_str("the end of the expression"),
         }
@@ -81,7 +95,7 @@ impl fmt::Display for Token {
 /// Signs, longer ones first.
 const SIGNS: [&str; 12] = ["<=", ">=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
-fn tokens(text: &str) -> Result<Vec<Placed>, FormulaError> {
+fn tokens(text: &str, known: Known<'_>) -> Result<Vec<Placed>, FormulaError> {
     let characters: Vec<char> = text.chars().collect();
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -98,6 +112,8 @@ fn tokens(text: &str) -> Result<Vec<Placed>, FormulaError> {
             let name: String = rest.iter().take_while(is_in).collect();
             let length = name.len();
             Leading { token: Token::Name(name), length }
+        } else if first == '[' && matches!(known, Known::Names(_)) {
+            bracketed(rest, characters.len() + 1)?
         } else {
             let begins =
                 |sign: &&str| sign.chars().zip(rest).filter(|(a, b)| a == *b).count() == sign.len();
@@ -113,6 +129,16 @@ fn tokens(text: &str) -> Result<Vec<Placed>, FormulaError> {
     }
     tokens.push(Placed { token: Token::End, column: characters.len() + 1 });
     Ok(tokens)
+}
+
+/// The name in brackets that a text begins with; `end` is the column behind the whole text.
+fn bracketed(rest: &[char], end: usize) -> Result<Leading, FormulaError> {
+    let Some(length) = rest.iter().position(|c| *c == ']') else {
+        let found = Token::End.to_string();
+        return Err(refuse(end, found, "`]` is expected behind a name in brackets"));
+    };
+    let name: String = rest[1..length].iter().collect();
+    Ok(Leading { token: Token::Bracketed(name.trim().to_owned()), length: length + 1 })
 }
 
 /// The number that a text begins with, and its length.
@@ -147,9 +173,9 @@ fn number(rest: &[char], at: usize) -> Result<Leading, FormulaError> {
 pub fn parse(
     text: &str,
     definitions: &Definitions,
-    dimensions: usize,
+    known: Known<'_>,
 ) -> Result<Node, FormulaError> {
-    let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, definitions, dimensions };
+    let mut parser = Parser { tokens: tokens(text, known)?, at: 0, depth: 0, definitions, known };
     let root = parser.comparison()?;
     match parser.next() {
         Placed { token: Token::End, .. } => Ok(root),
@@ -168,7 +194,7 @@ struct Parser<'a> {
     at: usize,
     depth: usize,
     definitions: &'a Definitions,
-    dimensions: usize,
+    known: Known<'a>,
 }
 
 impl Parser<'_> {
@@ -262,6 +288,10 @@ impl Parser<'_> {
         match self.next() {
             Placed { token: Token::Number(value), .. } => Ok(Node::Number(value)),
             Placed { token: Token::Name(name), column } => self.named(&name, column),
+            Placed { token: Token::Bracketed(name), column } => {
+                let variable = self.variable(&name, column)?;
+                variable.ok_or_else(|| self.unknown(&name, column))
+            }
             Placed { token: Token::Sign("("), .. } => {
                 let inside = self.comparison()?;
                 self.close()?;
@@ -286,12 +316,8 @@ impl Parser<'_> {
         if let Some(function) = Function::named(name) {
             return self.call(name, column, function);
         }
-        if let Some(which) = VARIABLES.iter().position(|known| *known == name) {
-            if which == 2 && self.dimensions < 3 {
-                let accepted = "x and y are the coordinates in the plane";
-                return Err(refuse(column, "there is no `z`".to_owned(), accepted));
-            }
-            return Ok(Node::Variable(which));
+        if let Some(variable) = self.variable(name, column)? {
+            return Ok(variable);
         }
         if let Some((_, value)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
             return Ok(Node::Number(*value));
@@ -299,14 +325,50 @@ impl Parser<'_> {
         if let Some(value) = self.definitions.get(name) {
             return Ok(Node::Number(*value));
         }
+        Err(self.unknown(name, column))
+    }
+
+    /// The variable of a name, if there is one.
+    fn variable(&self, name: &str, column: usize) -> Result<Option<Node>, FormulaError> {
+        let which = match self.known {
+            Known::Place { dimensions } => {
+                let which = VARIABLES.iter().position(|known| *known == name);
+                if which == Some(2) && dimensions < 3 {
+                    let accepted = "x and y are the coordinates in the plane";
+                    return Err(refuse(column, "there is no `z`".to_owned(), accepted));
+                }
+                which
+            }
+            Known::Names(names) => names.iter().position(|known| known == name),
+        };
+        Ok(which.map(Node::Variable))
+    }
+
+    fn unknown(&self, name: &str, column: usize) -> FormulaError {
         let functions = NAMED.iter().map(|(name, _)| *name);
-        let variables = VARIABLES.iter().copied().take(self.dimensions).chain(["t", "pi", "e"]);
         let own = self.definitions.keys().map(String::as_str);
-        let known: Vec<&str> = own.chain(variables).chain(functions).collect();
-        let near = nearest(name, &known);
-        let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
-        let accepted = format!("{near}known: {}; numbers get names in [define]", known.join(", "));
-        Err(FormulaError { column, found: format!("there is no `{name}`"), accepted })
+        let found = format!("there is no `{name}`");
+        let accepted = match self.known {
+            Known::Place { dimensions } => {
+                let variables = VARIABLES.iter().copied().take(dimensions).chain(["t", "pi", "e"]);
+                let known: Vec<&str> = own.chain(variables).chain(functions).collect();
+                let near = nearest(name, &known);
+                let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+                format!("{near}known: {}; numbers get names in [define]", known.join(", "))
+            }
+            Known::Names(names) => {
+                let names = names.iter().map(String::as_str);
+                let known: Vec<&str> =
+                    own.chain(names).chain(["pi", "e"]).chain(functions).collect();
+                let near = nearest(name, &known);
+                let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+                format!(
+                    "{near}known in brackets: quantities as series.csv has them, time, target.NAME, action.COMMAND \
+                     and names of [environment.value]"
+                )
+            }
+        };
+        FormulaError { column, found, accepted }
     }
 
     fn call(

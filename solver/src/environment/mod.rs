@@ -1,0 +1,18 @@
+//! Environments for learning: a case with `[environment]`, decision by decision, one or many at once.
+
+mod batch;
+mod common;
+mod environment;
+mod episode;
+mod error;
+mod full;
+mod swim;
+mod task;
+
+pub use batch::{Autoreset, Batch};
+pub use common::Head;
+pub use environment::{Environment, Info, Observed, Outcome};
+pub use error::EnvironmentError;
+pub use full::Full;
+pub use swim::Swim;
+pub use task::{Reason, Task};
