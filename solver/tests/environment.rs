@@ -128,7 +128,7 @@ fn episodes_follow_each_other_in_three_ways() {
     own.reset(Some(&[9, 9]), Some(&[false, true])).unwrap();
     assert_eq!(own.observations()[..22], before[..22]);
     assert!(own.observations()[22..] != before[22..]);
-    let (_, targets) = own.drawn();
+    let targets = own.drawn().targets;
     assert!(targets.chunks(2).all(|to| (3.5..6.0).contains(&to[0]) && to[1].abs() < 2.0));
 }
 
@@ -201,7 +201,7 @@ fn samples_differ_by_their_law_and_seed() {
                 (0..200).map(|k| if (k + nth) % 2 == 0 { 1.0 } else { -0.5 }).collect();
             batch.step(&asked, Autoreset::NextStep).unwrap();
         }
-        let (samples, _) = batch.drawn();
+        let samples = batch.drawn().samples;
         let mut own: Vec<usize> = samples.clone();
         own.sort_unstable();
         own.dedup();

@@ -11,21 +11,21 @@ mod text;
 
 pub use model::commands::{Asked, CommandError, Commands};
 pub use model::derived_number::DerivedNumber;
-pub use model::environment::{Action as SignalAction, Input, Mistake, Signals};
 pub use model::numbers::{derived_numbers, geometry_name, number_table, rounded, significant};
 pub use model::random::SplitMix64;
 pub use model::region::{normal_axis, opposite};
 pub use model::{Model, SwimmerModel};
+pub use quantity::signals::{Action as SignalAction, Input, Mistake, Signals};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
     ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, columns,
     known_quantities, reports_sides,
 };
-pub use read::CaseFile;
 pub use read::library;
 pub use read::problem_keys::collect_keys;
 pub use read::recording::Recording;
 pub use read::schema::schema;
+pub use read::{CaseFile, WrittenNumber};
 pub use rules::{at_rest, check, check_reduced};
 pub use spec::body::axial_vector::AxialVector;
 pub use spec::body::command::{Command, Follower};

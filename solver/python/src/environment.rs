@@ -3,7 +3,8 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use alewife::environment::{
-    Autoreset, Batch as Inner, Environment as _, EnvironmentError, Full, Head, Info, Swim, Task,
+    Autoreset, Batch as Inner, Drawn, Environment as _, EnvironmentError, Full, Head, Info, Swim,
+    Task,
 };
 use alewife::runner::{Checked, Failure, checked};
 use pyo3::exceptions::PyValueError;
@@ -257,7 +258,7 @@ impl Batch {
 
     /// The number of the sample of each, as 64 bits, and the targets of each.
     fn drawn<'py>(&self, py: Python<'py>) -> [Bound<'py, PyByteArray>; 2] {
-        let (samples, targets) = py.detach(|| self.held().drawn());
+        let Drawn { samples, targets } = py.detach(|| self.held().drawn());
         let samples = bytes_of(samples.iter().map(|sample| (*sample as u64).to_ne_bytes()));
         [samples, doubles(targets.iter().copied())].map(|bytes| PyByteArray::new(py, &bytes))
     }

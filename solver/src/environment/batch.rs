@@ -7,7 +7,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::EnvironmentError;
 use super::common::{Bench, Common, Head, Member};
-use super::task::{Reason, Task};
+use super::reason::Reason;
+use super::task::Task;
 use crate::case::CaseFile;
 
 /// Parts of the work for each thread.
@@ -22,6 +23,15 @@ pub enum Autoreset {
     SameStep,
     /// When it is asked for.
     Disabled,
+}
+
+/// What episodes have drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    /// Number of the sample of each environment.
+    pub samples: Vec<usize>,
+    /// Targets, environment by environment.
+    pub targets: Vec<f64>,
 }
 
 /// Many environments of one case by its reduced model. Each is the same whatever the others do, and however many
@@ -60,7 +70,7 @@ impl Work<'_> {
             *head = Head { reward: 0.0, time: 0.0, reason: Reason::Goes, was_reset: true };
             return common.start(member, bench, observation);
         }
-        let (found, _) = common.step(member, bench, action, [&mut *observation, terms]);
+        let found = common.step(member, bench, action, [&mut *observation, terms]).head;
         *head = found;
         if mode == Autoreset::SameStep && found.reason != Reason::Goes {
             last.copy_from_slice(observation);
@@ -147,10 +157,10 @@ impl Batch {
 
     /// Number of the sample of each environment, and its targets, environment by environment.
     #[must_use]
-    pub fn drawn(&self) -> (Vec<usize>, Vec<f64>) {
+    pub fn drawn(&self) -> Drawn {
         let samples = self.members.iter().map(|member| member.episode.sample).collect();
         let targets = self.members.iter().flat_map(|member| member.episode.targets.iter().copied());
-        (samples, targets.collect())
+        Drawn { samples, targets: targets.collect() }
     }
 
     /// Starts episodes: in all environments or in those of a mask; by seeds, one each, or as the next ones.

@@ -2,7 +2,8 @@
 
 use super::EnvironmentError;
 use super::episode::Episode;
-use super::task::{Reason, Task};
+use super::reason::Reason;
+use super::task::{Task, Unseen};
 use crate::case::{CaseFile, Severity, check_reduced};
 use crate::reduced::{Player, Playing, Scratch};
 
@@ -17,6 +18,12 @@ pub struct Head {
     pub reason: Reason,
     /// Whether this step started an episode.
     pub was_reset: bool,
+}
+
+/// A step, and what the solver says of it.
+pub(super) struct Stepped {
+    pub head: Head,
+    pub message: String,
 }
 
 /// A motion and its episode.
@@ -75,7 +82,7 @@ impl Common {
         let player = &self.players[episode.sample];
         *playing = player.playing();
         self.measure(player, member, bench);
-        self.task.observe(&bench.row, observation).map_err(|(nth, value)| {
+        self.task.observe(&bench.row, observation).map_err(|Unseen { observation: nth, value }| {
             member.episode.reason = Reason::NotFinite;
             EnvironmentError::Start { name: self.task.name(nth), value }
         })
@@ -83,7 +90,7 @@ impl Common {
 
     /// A motion without an episode, by a seed.
     pub fn member(&self, seed: u64) -> Member {
-        Member { playing: self.players[0].playing(), episode: Episode::new(&self.task, seed) }
+        Member { playing: self.players[0].playing(), episode: self.task.episode(seed) }
     }
 
     fn measure(&self, player: &Player, member: &mut Member, bench: &mut Bench) {
@@ -105,7 +112,7 @@ impl Common {
         bench: &mut Bench,
         action: &[f64],
         [observation, terms]: [&mut [f64]; 2],
-    ) -> (Head, String) {
+    ) -> Stepped {
         let Member { playing, episode } = member;
         let player = &self.players[episode.sample];
         episode.act(action);
@@ -125,7 +132,7 @@ impl Common {
                         (0.0, verdict.reason, "the reward is no finite number".to_owned())
                     }
                     Ok(()) => (verdict.reward, verdict.reason, String::new()),
-                    Err((nth, value)) => {
+                    Err(Unseen { observation: nth, value }) => {
                         let message = format!("{} is {value}", self.task.name(nth));
                         (0.0, Reason::NotFinite, message)
                     }
@@ -136,6 +143,6 @@ impl Common {
             terms.fill(0.0);
         }
         member.episode.reason = reason;
-        (Head { reward, time, reason, was_reset: false }, message)
+        Stepped { head: Head { reward, time, reason, was_reset: false }, message }
     }
 }

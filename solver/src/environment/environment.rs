@@ -1,7 +1,8 @@
 //! `Environment`: what a controller that learns deals with, whichever solver moves the swimmer.
 
 use super::EnvironmentError;
-use super::task::{Reason, Task};
+use super::reason::Reason;
+use super::task::Task;
 
 /// What is observed at the start of an episode.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! `Episode`: what an environment remembers besides the motion: its random numbers, targets, the last action.
 
-use super::task::{Reason, Task};
+use super::reason::Reason;
 use crate::case::SplitMix64;
 
 /// An episode, and what the next ones are drawn from.
@@ -17,12 +17,12 @@ pub(super) struct Episode {
 
 impl Episode {
     /// None yet, by a seed.
-    pub fn new(task: &Task, seed: u64) -> Self {
+    pub fn new(n_targets: usize, n_actions: usize, seed: u64) -> Self {
         Self {
             random: SplitMix64(mixed(seed)),
             sample: 0,
-            targets: vec![0.0; task.targets().len()].into(),
-            action: vec![0.0; task.actions().len()].into(),
+            targets: vec![0.0; n_targets].into(),
+            action: vec![0.0; n_actions].into(),
             n_decisions: 0,
             reason: Reason::End,
         }

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use super::episode::Episode;
-use super::task::{Reason, Task};
+use super::reason::Reason;
+use super::task::{Task, Unseen};
 use super::{Environment, EnvironmentError, Info, Observed, Outcome};
 use crate::case::{CaseFile, Model};
 use crate::run::{Dimension, RunError, SavedState, Session, Solve};
@@ -22,6 +23,13 @@ pub struct Full<const D: usize> {
     row: Vec<f64>,
     observation: Vec<f64>,
     terms: Vec<f64>,
+}
+
+/// What became of an interval.
+struct Judged {
+    reward: f64,
+    reason: Reason,
+    message: String,
 }
 
 impl<const D: usize> fmt::Debug for Full<D> {
@@ -48,7 +56,7 @@ where
             session: None,
             stop: None,
             names: task.columns().into_iter().map(|column| column.name).collect(),
-            episode: Episode::new(&task, task.seed()),
+            episode: task.episode(task.seed()),
             row: Vec::new(),
             observation: vec![0.0; task.observations().len()],
             terms: vec![0.0; task.terms().len()],
@@ -105,16 +113,20 @@ where
         self.measure()
     }
 
-    fn judged(&mut self) -> (f64, Reason, String) {
+    fn judged(&mut self) -> Judged {
         let verdict = self.task.judge(&self.episode, &self.row, &mut self.terms);
         if verdict.reason == Reason::NotFinite {
-            return (0.0, verdict.reason, "the reward is no finite number".to_owned());
+            let message = "the reward is no finite number".to_owned();
+            return Judged { reward: 0.0, reason: verdict.reason, message };
         }
         match self.task.observe(&self.row, &mut self.observation) {
-            Ok(()) => (verdict.reward, verdict.reason, String::new()),
-            Err((nth, value)) => {
+            Ok(()) => {
+                let (reward, reason) = (verdict.reward, verdict.reason);
+                Judged { reward, reason, message: String::new() }
+            }
+            Err(Unseen { observation: nth, value }) => {
                 let message = format!("{} is {value}", self.task.name(nth));
-                (0.0, Reason::NotFinite, message)
+                Judged { reward: 0.0, reason: Reason::NotFinite, message }
             }
         }
     }
@@ -144,7 +156,9 @@ where
         self.session = Some(session);
         self.measure()?;
         self.terms.fill(0.0);
-        if let Err((nth, value)) = self.task.observe(&self.row, &mut self.observation) {
+        if let Err(Unseen { observation: nth, value }) =
+            self.task.observe(&self.row, &mut self.observation)
+        {
             self.episode.reason = Reason::NotFinite;
             return Err(EnvironmentError::Start { name: self.task.name(nth), value });
         }
@@ -162,13 +176,15 @@ where
             return Err(EnvironmentError::Over { environment: 0 });
         }
         self.episode.act(action);
-        let (reward, reason, message) = match self.advance() {
+        let Judged { reward, reason, message } = match self.advance() {
             Ok(()) => self.judged(),
             Err(error @ RunError::Flow(crate::step::FlowError::Stopped { .. })) => {
                 self.episode.reason = Reason::Failure;
                 return Err(error.into());
             }
-            Err(error) => (0.0, Reason::Failure, error.to_string()),
+            Err(error) => {
+                Judged { reward: 0.0, reason: Reason::Failure, message: error.to_string() }
+            }
         };
         if matches!(reason, Reason::Failure | Reason::NotFinite) {
             self.terms.fill(0.0);

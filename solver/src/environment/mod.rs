@@ -6,13 +6,15 @@ mod environment;
 mod episode;
 mod error;
 mod full;
+mod reason;
 mod swim;
 mod task;
 
-pub use batch::{Autoreset, Batch};
+pub use batch::{Autoreset, Batch, Drawn};
 pub use common::Head;
 pub use environment::{Environment, Info, Observed, Outcome};
 pub use error::EnvironmentError;
 pub use full::Full;
+pub use reason::Reason;
 pub use swim::Swim;
-pub use task::{Reason, Task};
+pub use task::Task;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::common::{Bench, Common, Member};
+use super::common::{Bench, Common, Member, Stepped};
 use super::task::Task;
 use super::{Environment, EnvironmentError, Info, Observed, Outcome};
 use crate::case::CaseFile;
@@ -74,7 +74,8 @@ impl Environment for Swim {
             return Err(EnvironmentError::Over { environment: 0 });
         }
         let places = [&mut self.observation[..], &mut self.terms[..]];
-        let (head, message) = self.common.step(&mut self.member, &mut self.bench, action, places);
+        let Stepped { head, message } =
+            self.common.step(&mut self.member, &mut self.bench, action, places);
         Ok(Outcome {
             observation: self.observation.clone(),
             reward: head.reward,

@@ -4,10 +4,11 @@ use alewife_mesh::whole;
 
 use super::EnvironmentError;
 use super::episode::Episode;
+use super::reason::Reason;
 use crate::case::{
     CaseFile, Column, Diagnostic, Ending, EnvironmentSpec, Expression, Input, Mistake, Observation,
     RewardTerm, ScaledObservation, Severity, SignalAction, Signals, SplitMix64, TimeSettings,
-    check,
+    WrittenNumber, check,
 };
 
 /// What separates the numbers of samples from those of episodes.
@@ -15,23 +16,6 @@ const SAMPLES: u64 = 0x5a3b_1e0f_9c7d_2a41;
 
 /// Part of an interval that is rounding.
 const ROUNDING: f64 = 1e-6;
-
-/// Why an episode is over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reason {
-    /// It is not.
-    Goes,
-    /// The case has come to its end.
-    End,
-    /// The motion blows up, or a step fails.
-    Failure,
-    /// An observation or the reward is no finite number.
-    NotFinite,
-    /// A condition of `terminate`, by its number.
-    Terminated(usize),
-    /// A condition of `truncate`, by its number.
-    Truncated(usize),
-}
 
 /// A task, the same for all environments of a case.
 #[derive(Debug, Clone)]
@@ -45,39 +29,18 @@ pub struct Task {
     step: f64,
 }
 
+/// An observation that is no number.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unseen {
+    pub observation: usize,
+    pub value: f64,
+}
+
 /// What becomes of an interval.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Verdict {
     pub reward: f64,
     pub reason: Reason,
-}
-
-impl Reason {
-    /// A number for it: 0 while the episode goes on, 1 at the end of the case, 2 and 3 for failures, then all
-    /// conditions of `terminate` and those of `truncate`.
-    #[must_use]
-    pub fn code(self, n_terminate: usize) -> usize {
-        match self {
-            Self::Goes => 0,
-            Self::End => 1,
-            Self::Failure => 2,
-            Self::NotFinite => 3,
-            Self::Terminated(nth) => 4 + nth,
-            Self::Truncated(nth) => 4 + n_terminate + nth,
-        }
-    }
-
-    /// Whether the episode is over by what the task is.
-    #[must_use]
-    pub fn terminates(self) -> bool {
-        matches!(self, Self::Terminated(_))
-    }
-
-    /// Whether it is broken off.
-    #[must_use]
-    pub fn truncates(self) -> bool {
-        !matches!(self, Self::Goes | Self::Terminated(_))
-    }
 }
 
 /// Whether it is a number, in single precision too, which learners take.
@@ -214,14 +177,14 @@ impl Task {
         }
         let mut random = SplitMix64(self.spec.seed ^ SAMPLES);
         let mut sample = || {
-            let mut numbers: Vec<(&str, f64)> = Vec::new();
+            let mut numbers: Vec<WrittenNumber> = Vec::new();
             for one in &self.spec.randomise {
-                let pair = [random.next(), random.next()];
-                numbers.push((&one.key, one.law.draw(pair)));
+                let value = one.law.draw([random.next(), random.next()]);
+                numbers.push(WrittenNumber { path: one.key.clone(), value });
             }
             let wrong = |what: String| {
                 let shown: Vec<String> =
-                    numbers.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+                    numbers.iter().map(|one| format!("{} = {}", one.path, one.value)).collect();
                 EnvironmentError::Sample { numbers: shown.join(", "), what }
             };
             let other = file.with_numbers(&numbers).map_err(|error| wrong(error.to_string()))?;
@@ -234,6 +197,11 @@ impl Task {
             }
         };
         (0..self.spec.samples).map(|_| sample()).collect()
+    }
+
+    /// No episode yet, by a seed.
+    pub(super) fn episode(&self, seed: u64) -> Episode {
+        Episode::new(self.spec.target.len(), self.signals.actions.len(), seed)
     }
 
     /// Draws sample and targets of the next episode.
@@ -266,7 +234,7 @@ impl Task {
 
     /// Observations of a row into `observation`; the number of the first one that is no number, and its value, in
     /// place of them.
-    pub(super) fn observe(&self, row: &[f64], observation: &mut [f64]) -> Result<(), (usize, f64)> {
+    pub(super) fn observe(&self, row: &[f64], observation: &mut [f64]) -> Result<(), Unseen> {
         let value = |nth: usize| {
             let ScaledObservation { scale, bounds, .. } = &self.observations[nth];
             let value = self.signals.observations[nth].at(row) / scale;
@@ -275,8 +243,8 @@ impl Task {
                 |[low, high]| if value.is_nan() { value } else { value.clamp(low, high) },
             )
         };
-        let bad = (0..observation.len()).map(|nth| (nth, value(nth))).find(|(_, v)| !is_number(*v));
-        if let Some(bad) = bad {
+        let all = (0..observation.len()).map(|nth| Unseen { observation: nth, value: value(nth) });
+        if let Some(bad) = all.into_iter().find(|one| !is_number(one.value)) {
             return Err(bad);
         }
         observation.iter_mut().enumerate().for_each(|(nth, place)| *place = value(nth));

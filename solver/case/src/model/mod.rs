@@ -5,7 +5,6 @@ pub(crate) mod commands;
 mod connect;
 pub(crate) mod copies;
 pub(crate) mod derived_number;
-pub(crate) mod environment;
 mod geometry;
 pub(crate) mod impact;
 pub(crate) mod numbers;

@@ -4,6 +4,7 @@
 
 mod row;
 mod sides;
+pub(crate) mod signals;
 mod table;
 
 use crate::{FlowModel, Geometry, MagneticSpec, Model, SwimmerModel, TimeSettings};

@@ -59,7 +59,7 @@ pub struct CaseFile {
 
 /// A number as it is written.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct WrittenNumber {
+pub struct WrittenNumber {
     /// Its key, with its tables.
     pub path: String,
     /// The number.
@@ -110,9 +110,9 @@ impl CaseFile {
     ///
     /// # Errors
     /// [`CaseError::Wrong`] where a key can have no number, or the case makes no sense with it.
-    pub fn with_numbers(&self, numbers: &[(&str, f64)]) -> Result<Self, CaseError> {
+    pub fn with_numbers(&self, numbers: &[WrittenNumber]) -> Result<Self, CaseError> {
         let mut root = self.root.clone();
-        for (path, value) in numbers {
+        for WrittenNumber { path, value } in numbers {
             let text = format!("{path}={value:?}");
             let setting::Setting { path, value } = setting::read(&root, &text).map_err(wrong)?;
             root.set(&path, value).map_err(wrong)?;

@@ -1,7 +1,7 @@
 //! Problems of `[environment]`: names nobody has, intervals no step ends at, laws that are none.
 
 use super::Findings;
-use crate::model::environment::meant;
+use crate::quantity::signals::meant;
 use crate::spec::formula::mistake_in_name;
 use crate::{CaseFile, EnvironmentSpec, Law, Mistake, Signals, TimeSettings};
 
