@@ -2,7 +2,6 @@
 
 use crate::spec::environment::EnvironmentSpec;
 use crate::spec::formula::Expression;
-use crate::text::nearest::several_nearest;
 use crate::{Column, FormulaError, Model, columns};
 
 /// What is wrong with an environment.
@@ -284,14 +283,5 @@ impl<'a> Builder<'a> {
             })
             .collect();
         signals
-    }
-}
-
-/// Keys like a misspelt one, as a help.
-pub fn meant(word: &str, known: &[String]) -> String {
-    let known: Vec<&str> = known.iter().map(String::as_str).collect();
-    match several_nearest(word, &known)[..] {
-        [] => String::new(),
-        ref near => format!("; did you mean {}?", near.join(", ")),
     }
 }

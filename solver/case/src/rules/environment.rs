@@ -1,8 +1,8 @@
 //! Problems of `[environment]`: names nobody has, intervals no step ends at, laws that are none.
 
 use super::Findings;
-use crate::quantity::signals::meant;
 use crate::spec::formula::mistake_in_name;
+use crate::text::nearest::several_nearest;
 use crate::{CaseFile, EnvironmentSpec, Law, Mistake, Signals, TimeSettings};
 
 /// Steps in an interval, less the nearest whole number, that are rounding.
@@ -168,6 +168,15 @@ fn randomised(findings: &mut Findings<'_>, spec: &EnvironmentSpec, file: &CaseFi
                 "name each key once",
             );
         }
+    }
+}
+
+/// Keys like a misspelt one, as a help.
+fn meant(word: &str, known: &[String]) -> String {
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    match several_nearest(word, &known)[..] {
+        [] => String::new(),
+        ref near => format!("; did you mean {}?", near.join(", ")),
     }
 }
 
