@@ -28,6 +28,7 @@
 //! a case.
 
 pub mod cli;
+pub mod environment;
 pub mod observer;
 pub mod optimise;
 pub mod reduced;

@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 36] = [
+const ROOMS: [(&str, &[&str]); 37] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -83,6 +83,7 @@ const ROOMS: [(&str, &[&str]); 36] = [
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
     ("runner", &["case", "observer", "run", "step", "validation"]),
+    ("environment", &["case", "reduced", "run", "runner", "step"]),
     (
         "cli",
         &[

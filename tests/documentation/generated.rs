@@ -45,7 +45,12 @@ fn the_gallery_shows_every_case() {
         };
         let title = &case.title;
         write!(page, "\n## {name}\n\n[{title}](../cases/{name}/README.md): ").unwrap();
-        writeln!(page, "`alewife run {name}{variant}`").unwrap();
+        if case.environment.is_some() {
+            // A run by itself is refused: somebody has to decide
+            writeln!(page, "[`Environment(\"{name}\")`](python.md#environments)").unwrap();
+        } else {
+            writeln!(page, "`alewife run {name}{variant}`").unwrap();
+        }
         let picture = format!("pictures/{name}.png");
         if root().join("docs").join(&picture).is_file() {
             writeln!(page, "\n![picture]({picture})").unwrap();

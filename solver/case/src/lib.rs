@@ -12,22 +12,24 @@ mod text;
 pub use model::commands::{Asked, CommandError, Commands};
 pub use model::derived_number::DerivedNumber;
 pub use model::numbers::{derived_numbers, geometry_name, number_table, rounded, significant};
+pub use model::random::SplitMix64;
 pub use model::region::{normal_axis, opposite};
 pub use model::{Model, SwimmerModel};
+pub use quantity::signals::{Action as SignalAction, Input, Mistake, Signals};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
     ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, TracerQuantity, columns,
     differentiable_columns, known_quantities, reports_sides,
 };
-pub use read::CaseFile;
 pub use read::library;
 pub use read::problem_keys::collect_keys;
 pub use read::recording::Recording;
 pub use read::schema::schema;
-pub use read::sought::{KeyNumber, SOLVED_TABLES, SoughtNumber, numbers_at};
+pub use read::sought::{SOLVED_TABLES, SoughtNumber, numbers_at};
+pub use read::{CaseFile, WrittenNumber};
 pub use rules::{at_rest, check, check_flow, check_reduced};
 pub use spec::body::axial_vector::AxialVector;
-pub use spec::body::command::Command;
+pub use spec::body::command::{Command, Follower};
 pub use spec::body::gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
     JointsGait, PulsatingGait, TubeShape,
@@ -56,13 +58,17 @@ pub use spec::comparison::statistic::{ForceComponent, Statistic, StatisticKind};
 pub use spec::comparison::uncertainty::Uncertainty;
 pub use spec::contact::{ContactLosses, ContactSpec};
 pub use spec::domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
+pub use spec::environment::{
+    Action, Ending, EnvironmentSpec, Law, Observation, Randomised, RangedAction, RewardTerm,
+    ScaledObservation,
+};
 pub use spec::extent::Extent;
 pub use spec::field::{DipoleField, FieldSpec, LinearField, MagneticSpec, RotatingField};
 pub use spec::fluid::mean_flow::MeanFlowSpec;
 pub use spec::fluid::tracer::{SeedGrid, SeedLine, TracerRegion, TracerSpec};
 pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use spec::fluid::{FlowModel, Fluid};
-pub use spec::formula::{Definitions, Formula, FormulaError, ParsedFormula};
+pub use spec::formula::{Definitions, Expression, Formula, FormulaError, ParsedFormula};
 pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use spec::mesh_file::{MeshFile, NamedSolid, RegionSpec, SidePart};

@@ -1,5 +1,6 @@
 //! `alewife_session`: the extension module behind `alewife.session`, one thread of its own for each session.
 
+mod environment;
 mod session;
 mod worker;
 
@@ -20,5 +21,7 @@ fn alewife_session(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("SessionError", module.py().get_type::<SessionError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<session::Session>()?;
-    module.add_class::<session::State>()
+    module.add_class::<session::State>()?;
+    module.add_class::<environment::Environment>()?;
+    module.add_class::<environment::Batch>()
 }

@@ -17,7 +17,7 @@ pub struct State(Arc<AnyState>);
 
 /// A session.
 #[pyclass(frozen, module = "alewife_session")]
-pub struct Session(Worker);
+pub struct Session(Worker<AnySession>);
 
 /// Values of a field in the order of nodes, and how many numbers each node has.
 type Array<'py> = (Bound<'py, PyByteArray>, usize);

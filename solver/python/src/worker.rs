@@ -49,11 +49,11 @@ macro_rules! either {
     };
 }
 
-type Job = Box<dyn FnOnce(&mut Option<AnySession>) + Send>;
+type Job<T> = Box<dyn FnOnce(&mut Option<T>) + Send>;
 
-/// A session in threads of its own.
-pub struct Worker {
-    jobs: Mutex<Sender<Job>>,
+/// A session, or something else that stays where it was opened, in threads of its own.
+pub struct Worker<T> {
+    jobs: Mutex<Sender<Job<T>>>,
     /// Whether it is to stop at its next step.
     stop: Arc<AtomicBool>,
     threads: usize,
@@ -65,7 +65,7 @@ pub fn failed(failure: &Failure) -> PyErr {
     SessionError::new_err((failure.message.clone(), failure.exit as i32))
 }
 
-impl Worker {
+impl Worker<AnySession> {
     /// Opens a session in this many threads.
     pub fn open(py: Python<'_>, plan: SessionPlan) -> PyResult<Self> {
         let worker = Self::start(plan.threads)?;
@@ -106,11 +106,19 @@ impl Worker {
         })?;
         Ok(worker)
     }
+}
 
-    fn start(threads: usize) -> PyResult<Self> {
+impl<T: 'static> Worker<T> {
+    /// What asks it to stop at its next step.
+    pub fn stop(&self) -> &Arc<AtomicBool> {
+        &self.stop
+    }
+
+    /// One that has nothing yet, in this many threads.
+    pub fn start(threads: usize) -> PyResult<Self> {
         let pool = ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
         let pool = pool.map_err(|error| SessionError::new_err((error.to_string(), 70)))?;
-        let (jobs, to_do): (Sender<Job>, Receiver<Job>) = channel();
+        let (jobs, to_do): (Sender<Job<T>>, Receiver<Job<T>>) = channel();
         // What is done in parallel begins on one of its threads
         pool.spawn(move || {
             let mut session = None;
@@ -126,10 +134,19 @@ impl Worker {
     pub fn with<R: Send + 'static>(
         &self,
         py: Python<'_>,
-        job: impl FnOnce(&mut AnySession) -> Result<R, RunError> + Send + 'static,
+        job: impl FnOnce(&mut T) -> Result<R, RunError> + Send + 'static,
+    ) -> PyResult<R> {
+        self.with_it(py, |own| job(own).map_err(Failure::from))
+    }
+
+    /// Does a job that fails in another way with it.
+    pub fn with_it<R: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        job: impl FnOnce(&mut T) -> Result<R, Failure> + Send + 'static,
     ) -> PyResult<R> {
         self.work(py, |own| match own {
-            Some(session) => Ok(job(session)?),
+            Some(session) => job(session),
             None => Err(RunError::Session("this session is closed".to_owned()).into()),
         })
     }
@@ -138,11 +155,11 @@ impl Worker {
     pub fn work<R: Send + 'static>(
         &self,
         py: Python<'_>,
-        job: impl FnOnce(&mut Option<AnySession>) -> Result<R, Failure> + Send + 'static,
+        job: impl FnOnce(&mut Option<T>) -> Result<R, Failure> + Send + 'static,
     ) -> PyResult<R> {
         self.stop.store(false, Ordering::Relaxed);
         let (give, take) = channel();
-        let job: Job = Box::new(move |own| {
+        let job: Job<T> = Box::new(move |own| {
             // A bug must not end the interpreter
             if let Ok(result) = catch_unwind(AssertUnwindSafe(|| job(own))) {
                 let _ = give.send(result);
@@ -173,15 +190,24 @@ impl Worker {
     }
 }
 
+/// What asks for a stop at the next step.
+pub struct Stopped;
+
+impl Stopped {
+    /// A request by a flag.
+    pub fn by(stop: &Arc<AtomicBool>) -> Arc<dyn Fn() -> bool + Send + Sync> {
+        let stop = Arc::clone(stop);
+        Arc::new(move || stop.load(Ordering::Relaxed))
+    }
+}
+
 fn ended() -> PyErr {
     SessionError::new_err(("this session has ended by a bug in the program", 70))
 }
 
 impl AnySession {
     fn stopped_by(mut self, stop: &Arc<AtomicBool>) -> Self {
-        let stop = Arc::clone(stop);
-        let asks = Arc::new(move || stop.load(Ordering::Relaxed));
-        either!(&mut self, session => session.stop_when(asks));
+        either!(&mut self, session => session.stop_when(Stopped::by(stop)));
         self
     }
 }

@@ -54,6 +54,11 @@ pub fn facts(file: &CaseFile) -> String {
     if !model.commands.is_empty() {
         line("commands", model.commands.names().join(", "));
     }
+    if let Some(task) = &case.environment {
+        let (seen, done) = (task.observations.len(), task.actions.len());
+        let every = significant(task.interval);
+        line("environment", format!("{seen} observations, {done} actions, every {every}"));
+    }
     line("time", time(case));
     if let Some(frame) = &case.frame {
         line("frame", format!("travels with {frame}"));

@@ -1,5 +1,6 @@
 //! Quantities of bodies and joints of a reduced model, under the names of a full run.
 
+use alewife_reduced::tree::compiled::{Looked, look};
 use alewife_reduced::tree::{Pose, State, Twist, Wrench};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
@@ -94,6 +95,14 @@ impl Moving {
     }
 }
 
+/// What is remembered of a body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Last {
+    /// Angle over all turns (rad).
+    pub angle: f64,
+    pub velocity: Vector3<f64>,
+}
+
 /// All bodies at a state, with their angles over all turns and their accelerations by the velocities `before`, a
 /// step (s) ago.
 pub(super) fn bodies(
@@ -102,22 +111,40 @@ pub(super) fn bodies(
     before: &[Moving],
     step: f64,
 ) -> Vec<Moving> {
-    let (poses, twists) = (reduced.tree.poses(state), reduced.tree.twists(state));
-    let wrenches = reduced.tree.fluid_wrenches(state);
+    let last = |number: usize| {
+        before
+            .get(number)
+            .map(|body: &Moving| Last { angle: body.angle, velocity: body.twist.linear })
+    };
+    bodies_after(reduced, state, step, &last, true)
+}
+
+/// The same by the angle and the velocity that each body had last; loads only where they are asked for.
+pub(super) fn bodies_after(
+    reduced: &Reduced,
+    state: &State<f64>,
+    step: f64,
+    last: &dyn Fn(usize) -> Option<Last>,
+    has_loads: bool,
+) -> Vec<Moving> {
+    let Looked { poses, twists, wrenches } = look(&reduced.tree, state, has_loads);
     let moving = |(number, part): (usize, &super::build::Part)| {
-        let (link, twist, load) = (&poses[part.link], &twists[part.link], &wrenches[part.link]);
+        let (link, twist) = (&poses[part.link], &twists[part.link]);
+        let load = wrenches
+            .get(part.link)
+            .copied()
+            .unwrap_or_else(|| Wrench { force: Vector3::zeros(), torque: Vector3::zeros() });
         let arm = link.rotation * part.inside.position;
         let pose = link.then(&part.inside);
         let linear = twist.linear + twist.angular.cross(&arm);
         let force = link.rotation * load.force;
         let torque = link.rotation * load.torque - arm.cross(&force);
         let heading = pose.rotation[(1, 0)].atan2(pose.rotation[(0, 0)]);
-        let last = before.get(number);
-        let turns = |last: &Moving| ((last.angle - heading) / std::f64::consts::TAU).round();
+        let last = last(number);
+        let turns = |last: Last| ((last.angle - heading) / std::f64::consts::TAU).round();
         Moving {
             angle: heading + std::f64::consts::TAU * last.map_or(0.0, turns),
-            acceleration: last
-                .map_or_else(Vector3::zeros, |last| (linear - last.twist.linear) / step),
+            acceleration: last.map_or_else(Vector3::zeros, |last| (linear - last.velocity) / step),
             pose,
             twist: Twist { linear, angular: twist.angular },
             load: Wrench { force, torque },

@@ -11,10 +11,12 @@ mod law;
 mod lift;
 mod measure;
 mod mover;
+mod play;
 mod simulate;
 mod swimmer;
 mod told;
 
 pub use calibrate::{CalibrateError, Calibrated, Deviation, calibrate};
 pub use error::ReducedError;
+pub use play::{Player, Playing, Scratch};
 pub use simulate::simulate;

@@ -28,7 +28,7 @@ pub(super) struct Swimming {
 
 /// A swimmer at one time.
 #[derive(Debug, Clone, Copy)]
-struct Now {
+pub(super) struct Now {
     center: Vector3<f64>,
     angle: f64,
     linear: Vector3<f64>,
@@ -36,6 +36,50 @@ struct Now {
     force: Vector3<f64>,
     torque: Vector3<f64>,
     power: f64,
+}
+
+impl Now {
+    /// That of bodies by their numbers.
+    pub fn of(own: &[usize], reduced: &Reduced, bodies: &[Moving]) -> Self {
+        let parts = || own.iter().map(|body| (&reduced.parts[*body], &bodies[*body]));
+        let mass: f64 = parts().map(|(part, _)| part.mass).sum();
+        let mean = |value: fn(&Moving) -> Vector3<f64>| {
+            parts().fold(Vector3::zeros(), |sum, (part, body)| sum + value(body) * part.mass) / mass
+        };
+        let center = mean(|body| body.pose.position);
+        let linear = mean(|body| body.twist.linear);
+        let mut momentum = Vector3::zeros();
+        let mut inertia = Matrix3::zeros();
+        let (mut force, mut torque, mut power) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+        for (part, body) in parts() {
+            let arm = body.pose.position - center;
+            let own = turned_inertia(part, body);
+            momentum += arm.cross(&body.twist.linear) * part.mass + own * body.twist.angular;
+            inertia += own
+                + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * part.mass;
+            force += body.load.force;
+            torque += body.load.torque + arm.cross(&body.load.force);
+            power += body.power();
+        }
+        let angular = solve(&inertia, &momentum);
+        Self { center, angle: bodies[own[0]].angle, linear, angular, force, torque, power }
+    }
+
+    /// A quantity of one time; none of those of a cycle, or that only a flow has.
+    pub fn value(&self, quantity: SwimmerQuantity) -> Option<Value> {
+        let rigid = self.linear.dot(&self.force) + self.angular.dot(&self.torque);
+        Some(match quantity {
+            SwimmerQuantity::Position => Value::Vector(self.center),
+            SwimmerQuantity::Angle => Value::Scalar(self.angle),
+            SwimmerQuantity::Velocity => Value::Vector(self.linear),
+            SwimmerQuantity::AngularVelocity => Value::Vector(self.angular),
+            SwimmerQuantity::Force => Value::Vector(self.force),
+            SwimmerQuantity::Torque => Value::Vector(self.torque),
+            SwimmerQuantity::Power => Value::Scalar(self.power),
+            SwimmerQuantity::ShapePower => Value::Scalar(self.power + rigid),
+            _ => return None,
+        })
+    }
 }
 
 /// Averages over the last cycle.
@@ -56,28 +100,8 @@ impl Swimming {
 
     /// Takes over the bodies at a time.
     pub fn observe(&mut self, reduced: &Reduced, bodies: &[Moving], time: f64) {
-        let own = || self.bodies.iter().map(|body| (&reduced.parts[*body], &bodies[*body]));
-        let mass: f64 = own().map(|(part, _)| part.mass).sum();
-        let mean = |value: fn(&Moving) -> Vector3<f64>| {
-            own().fold(Vector3::zeros(), |sum, (part, body)| sum + value(body) * part.mass) / mass
-        };
-        let center = mean(|body| body.pose.position);
-        let linear = mean(|body| body.twist.linear);
-        let mut momentum = Vector3::zeros();
-        let mut inertia = Matrix3::zeros();
-        let (mut force, mut torque, mut power) = (Vector3::zeros(), Vector3::zeros(), 0.0);
-        for (part, body) in own() {
-            let arm = body.pose.position - center;
-            let own = turned_inertia(part, body);
-            momentum += arm.cross(&body.twist.linear) * part.mass + own * body.twist.angular;
-            inertia += own
-                + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * part.mass;
-            force += body.load.force;
-            torque += body.load.torque + arm.cross(&body.load.force);
-            power += body.power();
-        }
-        let angular = solve(&inertia, &momentum);
-        let angle = bodies[self.bodies[0]].angle;
+        let now = Now::of(&self.bodies, reduced, bodies);
+        let (center, angle, power) = (now.center, now.angle, now.power);
         let last = self.past.last();
         let step = last.map_or(0.0, |last| time - last.time);
         let before = self.now.map_or(power, |now| now.power);
@@ -90,7 +114,7 @@ impl Swimming {
             given: sum(|past| past.given, 0.5 * (before.max(0.0) + power.max(0.0))),
         };
         self.past.push(past);
-        self.now = Some(Now { center, angle, linear, angular, force, torque, power });
+        self.now = Some(now);
     }
 
     /// What was at a time, between the ends of steps.
@@ -134,16 +158,7 @@ impl Swimming {
         let now = self.now?;
         let of_cycle =
             |value: fn(&Cycle) -> f64| Value::Scalar(self.cycle().as_ref().map_or(f64::NAN, value));
-        let rigid = now.linear.dot(&now.force) + now.angular.dot(&now.torque);
         Some(match quantity {
-            SwimmerQuantity::Position => Value::Vector(now.center),
-            SwimmerQuantity::Angle => Value::Scalar(now.angle),
-            SwimmerQuantity::Velocity => Value::Vector(now.linear),
-            SwimmerQuantity::AngularVelocity => Value::Vector(now.angular),
-            SwimmerQuantity::Force => Value::Vector(now.force),
-            SwimmerQuantity::Torque => Value::Vector(now.torque),
-            SwimmerQuantity::Power => Value::Scalar(now.power),
-            SwimmerQuantity::ShapePower => Value::Scalar(now.power + rigid),
             SwimmerQuantity::CycleDisplacement => {
                 let nowhere = Vector3::repeat(f64::NAN);
                 Value::Vector(self.cycle().map_or(nowhere, |cycle| cycle.way))
@@ -159,7 +174,7 @@ impl Swimming {
                     .before
                     .map_or(f64::NAN, |before| (cycle.way - before).norm() / cycle.way.norm())
             }),
-            _ => return None,
+            _ => return now.value(quantity),
         })
     }
 }

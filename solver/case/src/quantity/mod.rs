@@ -5,6 +5,7 @@
 mod differentiable;
 mod row;
 mod sides;
+pub(crate) mod signals;
 mod table;
 
 use crate::{FlowModel, Geometry, MagneticSpec, Model, SwimmerModel, TimeSettings};

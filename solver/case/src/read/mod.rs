@@ -65,7 +65,7 @@ pub struct CaseFile {
 
 /// A number as it is written.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct WrittenNumber {
+pub struct WrittenNumber {
     /// Its key, with its tables.
     pub path: String,
     /// The number.

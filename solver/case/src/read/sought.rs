@@ -1,6 +1,6 @@
 //! `SoughtNumber`: a number that a search of a steady flow changes, with the keys of the case that follow from it.
 
-use super::{CaseFile, UntypedCase, wrong};
+use super::{CaseFile, UntypedCase, WrittenNumber, wrong};
 use crate::text::diagnostic::CaseError;
 use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TomlValue};
@@ -34,15 +34,6 @@ pub struct SoughtKey {
     pub key: String,
     /// What it is, in names of numbers that are sought.
     pub value: Option<Formula>,
-}
-
-/// A key of a case and a number for it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct KeyNumber {
-    /// The key, such as `body.0.shape.sphere.radius`.
-    pub key: String,
-    /// The number.
-    pub value: f64,
 }
 
 impl CaseFile {
@@ -95,9 +86,9 @@ impl CaseFile {
     ///
     /// # Errors
     /// [`CaseError`]: a key is not there, or the case is wrong with these numbers.
-    pub fn with_numbers(&self, numbers: &[KeyNumber]) -> Result<Self, CaseError> {
+    pub fn with_numbers(&self, numbers: &[WrittenNumber]) -> Result<Self, CaseError> {
         let mut root = self.root.clone();
-        for KeyNumber { key, value } in numbers {
+        for WrittenNumber { path: key, value } in numbers {
             let nowhere = || Origin { span: 0..0, ..root.origin.clone() };
             let [key_at, origin] = root.get(key).map_or_else(
                 || [nowhere(), nowhere()],
@@ -128,7 +119,7 @@ pub fn numbers_at(
     sought: &[SoughtNumber],
     define: &Definitions,
     values: &[f64],
-) -> Result<Vec<KeyNumber>, CaseError> {
+) -> Result<Vec<WrittenNumber>, CaseError> {
     let mut known = define.clone();
     let named = sought.iter().zip(values).map(|(number, value)| (number.name.clone(), *value));
     known.extend(named);
@@ -150,7 +141,7 @@ pub fn numbers_at(
             if !found.is_finite() {
                 return Err(wrong(format!("`{key}` would be {found}, no finite number")));
             }
-            numbers.push(KeyNumber { key: key.clone(), value: found });
+            numbers.push(WrittenNumber { path: key.clone(), value: found });
         }
     }
     Ok(numbers)

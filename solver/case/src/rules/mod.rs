@@ -11,6 +11,7 @@ mod command;
 mod contact;
 mod declared;
 mod drive;
+mod environment;
 mod expressions;
 mod extremes;
 mod field;
@@ -68,6 +69,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     reduced::check(&mut findings);
     optimisation::check(&mut findings, file);
     calibration::check(&mut findings);
+    environment::check(&mut findings, file);
     extremes::check(&mut findings, file);
     if has_flow && findings.has_no_error() {
         cells::check(&mut findings);

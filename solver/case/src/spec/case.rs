@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Body, BoundaryCondition, CalibrationSpec, ContactSpec, DomainSpec, FieldSpec, FlowModel,
-    FlowOptimisation, Fluid, Geometry, InitialFlow, Joint, LoadLaw, MagneticSpec, MeanFlowSpec,
-    MeshSettings, Numbers, Output, Probe, ReducedSpec, Reference, Scales, Statistics, SwimmerSpec,
-    TimeSettings, TracerSpec, Units, Variant,
+    Body, BoundaryCondition, CalibrationSpec, ContactSpec, DomainSpec, EnvironmentSpec, FieldSpec,
+    FlowModel, FlowOptimisation, Fluid, Geometry, InitialFlow, Joint, LoadLaw, MagneticSpec,
+    MeanFlowSpec, MeshSettings, Numbers, Output, Probe, ReducedSpec, Reference, Scales, Statistics,
+    SwimmerSpec, TimeSettings, TracerSpec, Units, Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -64,6 +64,9 @@ pub struct Case {
     /// The reduced model, for runs with `--fidelity reduced`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedSpec>,
+    /// The case as a task for a controller that learns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub environment: Option<EnvironmentSpec>,
     /// Which numbers `alewife optimise` finds, and for what.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub optimisation: Option<FlowOptimisation>,

@@ -6,6 +6,7 @@ pub(crate) mod case;
 pub(crate) mod comparison;
 pub(crate) mod contact;
 pub(crate) mod domain;
+pub(crate) mod environment;
 pub(crate) mod extent;
 pub(crate) mod field;
 pub(crate) mod fluid;

@@ -3,9 +3,10 @@
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 34] = [
+pub const CHOICES: [&str; 35] = [
     "drive",
     "kind",
+    "law",
     "length",
     "angle",
     "torque",

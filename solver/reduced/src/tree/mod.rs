@@ -1,6 +1,7 @@
 //! The reduced tier: trees of rigid links in the plane and in space under loads by laws, with exact derivatives.
 
 mod cholesky;
+pub mod compiled;
 mod connection;
 mod drift;
 mod equations;

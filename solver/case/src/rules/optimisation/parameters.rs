@@ -2,7 +2,8 @@
 
 use super::constant::check_constant;
 use crate::read::CaseFile;
-use crate::read::sought::{KeyNumber, SOLVED_TABLES, SoughtNumber};
+use crate::read::WrittenNumber;
+use crate::read::sought::{SOLVED_TABLES, SoughtNumber};
 use crate::rules::Findings;
 use crate::spec::formula::mistake_in_name;
 use crate::text::diagnostic::CaseError;
@@ -98,7 +99,8 @@ fn is_solved(key: &str) -> bool {
 fn check_changes(findings: &mut Findings<'_>, file: &CaseFile, here: &str, key: &str) {
     let own = file.number(key).unwrap_or(0.0);
     let value = own + CHANGE * if own == 0.0 { 1.0 } else { own.abs() };
-    let Err(error) = file.with_numbers(&[KeyNumber { key: key.to_owned(), value }]) else { return };
+    let changed = file.with_numbers(&[WrittenNumber { path: key.to_owned(), value }]);
+    let Err(error) = changed else { return };
     let why = match &error {
         CaseError::Wrong(all) => all.first().map(|one| one.message.clone()),
         _ => None,

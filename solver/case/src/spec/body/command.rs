@@ -85,6 +85,7 @@ impl Track {
 
 impl Piece {
     /// Value and rate a time (s) after its start.
+    #[inline]
     fn after(&self, time: f64, frequency: f64) -> [f64; 2] {
         let lag = 2.0 * self.slope / frequency;
         let first = self.value - self.reference + lag;
@@ -137,7 +138,14 @@ impl Command {
         history.pieces.push(rest);
     }
 
+    /// Whether it is a clone of another one, with which it shares what is asked for.
+    #[must_use]
+    pub fn is_clone_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.track.0, &other.track.0)
+    }
+
     /// The nearest value within the limits.
+    #[inline]
     #[must_use]
     pub fn clipped(&self, target: f64) -> f64 {
         self.limits.map_or(target, |[least, most]| target.max(least).min(most))
@@ -153,6 +161,7 @@ impl Command {
     }
 
     /// Value and rate on a piece at a time (s); before the first one all is at rest.
+    #[inline]
     fn on(&self, piece: Option<&Piece>, time: f64) -> [f64; 2] {
         let Some(piece) = piece else { return [self.start, 0.0] };
         let [value, rate] = piece.after(time - piece.start, 1.0 / self.filter);
@@ -191,6 +200,64 @@ impl Command {
         let [least, most] = self.range();
         let jump = (most - least) / (std::f64::consts::E * self.filter);
         self.rate.map_or(jump, |rate| rate.min(jump))
+    }
+}
+
+/// A command that somebody follows for himself, without all that was asked for before.
+#[derive(Debug, Clone, Copy)]
+pub struct Follower {
+    /// The piece there is now, and the one that comes after it.
+    now: Option<Piece>,
+    next: Option<Piece>,
+}
+
+impl Follower {
+    /// At rest at the start of its command.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { now: None, next: None }
+    }
+
+    /// Asks for a target of its command from a time (s) on that is not before the last one.
+    pub fn ask(&mut self, command: &Command, time: f64, target: f64) {
+        let before = self.at_time(time);
+        let [value, rate] = command.on(before.as_ref(), time);
+        let reference = before
+            .map_or(command.start, |piece| piece.reference + piece.slope * (time - piece.start));
+        let target = command.clipped(target);
+        let way = target - reference;
+        match command.rate {
+            Some(most) if way != 0.0 => {
+                let slope = most.copysign(way);
+                let piece = Piece { start: time, reference, slope, value, rate };
+                let start = time + way / slope;
+                let [value, rate] = command.on(Some(&piece), start);
+                self.now = Some(piece);
+                self.next = Some(Piece { start, reference: target, slope: 0.0, value, rate });
+            }
+            _ => {
+                self.now = Some(Piece { start: time, reference: target, slope: 0.0, value, rate });
+                self.next = None;
+            }
+        }
+    }
+
+    /// Value and rate of its command at a time (s) that is not before the last time something was asked for.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, command: &Command, time: f64) -> [f64; 2] {
+        command.on(self.at_time(time).as_ref(), time)
+    }
+
+    #[inline]
+    fn at_time(&self, time: f64) -> Option<Piece> {
+        self.next.filter(|next| next.start <= time).or(self.now)
+    }
+}
+
+impl Default for Follower {
+    fn default() -> Self {
+        Self::new()
     }
 }
 
@@ -263,6 +330,24 @@ mod tests {
     }
 
     /// What was asked for at the same time before does not count, nor does how often is looked at it.
+    #[test]
+    fn a_follower_is_where_its_command_is() {
+        let asked = [(0.0, 0.3), (0.4, -0.2), (0.43, 2.0), (0.9, -3.0), (1.5, 0.0)];
+        for rate in [None, Some(COMMAND[1])] {
+            let whole = command(rate);
+            let mut follower = Follower::new();
+            for (nth, (time, target)) in asked.iter().enumerate() {
+                follower.ask(&whole, *time, *target);
+                let end = asked.get(nth + 1).map_or(2.0, |next| next.0);
+                for part in 0..10 {
+                    let time = time + 0.1 * f64::from(part) * (end - time);
+                    let bits = |value: [f64; 2]| value.map(f64::to_bits);
+                    assert_eq!(bits(follower.at(&whole, time)), bits(whole.at(time)));
+                }
+            }
+        }
+    }
+
     #[test]
     fn the_last_word_of_a_time_counts() {
         let (once, twice) = (command(Some(2.0)), command(Some(2.0)));

@@ -84,6 +84,7 @@ impl Function {
     }
 
     /// Its value by those of its arguments; a comparison is 1 where it holds and 0 elsewhere.
+    #[inline]
     pub fn value(self, at: impl Fn(usize) -> f64) -> f64 {
         let truth = |holds: bool| if holds { 1.0 } else { 0.0 };
         let given = || (2..16).map(&at).take_while(|value| !value.is_nan());
@@ -125,6 +126,7 @@ impl Function {
 }
 
 /// A power; of small whole exponents by products, whose rounding is the same on all machines.
+#[inline]
 fn power(base: f64, exponent: f64) -> f64 {
     whole_exponent(exponent).map_or_else(|| base.powf(exponent), |whole| base.powi(whole))
 }

@@ -59,6 +59,62 @@ impl ParsedFormula {
     }
 }
 
+/// An expression of variables with any names, which are in brackets: `[eel.x] - [target.x]`.
+///
+/// A text that is such a name needs none, nor does a name of letters, digits and _.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expression {
+    root: Node,
+}
+
+impl Expression {
+    /// An expression of numbers that a case defines, and of variables.
+    ///
+    /// # Errors
+    /// Where in the text something is not understood, and what would be.
+    pub fn parse(
+        text: &str,
+        definitions: &Definitions,
+        variables: &[String],
+    ) -> Result<Self, FormulaError> {
+        let whole = variables.iter().position(|name| name == text.trim());
+        let root = match whole {
+            Some(which) => Node::Variable(which),
+            None => {
+                let known = parse::Known::Names(variables);
+                parse::parse(text, definitions, known).or_else(|error| {
+                    // A name that nobody has, rather than numbers that are none
+                    if !is_dotted(text.trim()) {
+                        return Err(error);
+                    }
+                    parse::parse(&format!("[{}]", text.trim()), definitions, known)
+                })?
+            }
+        };
+        Ok(Self { root })
+    }
+
+    /// Its value by those of the variables.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, variables: &[f64]) -> f64 {
+        self.root.at(variables)
+    }
+
+    /// The variables it depends on, by their numbers.
+    #[must_use]
+    pub fn variables(&self) -> Vec<usize> {
+        let mut variables = Vec::new();
+        self.root.collect(&mut variables);
+        variables
+    }
+
+    /// Gives its variables other numbers.
+    pub fn renumber(&mut self, number: &impl Fn(usize) -> usize) {
+        self.root.renumber(number);
+    }
+}
+
 impl Formula {
     /// It, with the numbers that a case defines, in a problem of so many dimensions.
     ///
@@ -72,9 +128,7 @@ impl Formula {
         let root = match self {
             Self::Number(value) => Node::Number(*value),
             Self::Expression(text) => {
-                let is_in_space = dimensions == 3;
-                let variables = if is_in_space { &parse::IN_SPACE[..] } else { &parse::IN_PLANE };
-                parse::parse(text, definitions, variables)?
+                parse::parse(text, definitions, parse::Known::Place { dimensions })?
             }
         };
         Ok(ParsedFormula { root })
@@ -87,7 +141,7 @@ impl Formula {
     pub fn along_midline(&self, definitions: &Definitions) -> Result<ParsedFormula, FormulaError> {
         let root = match self {
             Self::Number(value) => Node::Number(*value),
-            Self::Expression(text) => parse::parse(text, definitions, &parse::ALONG_MIDLINE)?,
+            Self::Expression(text) => parse::parse(text, definitions, parse::Known::Midline)?,
         };
         Ok(ParsedFormula { root })
     }
@@ -100,6 +154,14 @@ impl Formula {
             Self::Expression(_) => None,
         }
     }
+}
+
+/// Whether a text looks like the name of a quantity: `eel-1.velocity.x`.
+fn is_dotted(text: &str) -> bool {
+    let is_in = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.contains('.')
+        && text.chars().all(is_in)
 }
 
 /// Numbers, if all of these are written so.
@@ -116,7 +178,7 @@ pub fn mistake_in_name(name: &str) -> Option<String> {
     if !is_word {
         return Some("a name has letters, digits and _, a letter first".to_owned());
     }
-    let is_taken = parse::IN_SPACE.iter().any(|(known, _)| *known == name)
+    let is_taken = parse::VARIABLES.contains(&name)
         || parse::CONSTANTS.iter().any(|(known, _)| *known == name)
         || Function::named(name).is_some();
     is_taken.then(|| "this name has a meaning in expressions already".to_owned())
@@ -231,6 +293,23 @@ mod tests {
             assert_eq!(error.column, column, "{text}: {error}");
             assert!(error.to_string().contains(part), "{text}: {error}");
         }
+    }
+
+    #[test]
+    fn names_of_variables_are_in_brackets() {
+        let names = ["eel-1.x", "target.x", "way"].map(str::to_owned);
+        let definitions = Definitions::from([("reach".to_owned(), 2.0)]);
+        let at = |text: &str| {
+            Expression::parse(text, &definitions, &names).map(|found| found.at(&[3.0, 1.0, 5.0]))
+        };
+        assert_eq!(at("eel-1.x"), Ok(3.0));
+        assert_eq!(at("([eel-1.x] - [ target.x ])^reach + way - [way]"), Ok(4.0));
+        let wrong = |text: &str| at(text).expect_err(text);
+        assert_eq!(wrong("1 + [eel-2.x]").column, 5);
+        assert!(wrong("1 + [eel-2.x]").accepted.contains("did you mean `eel-1.x`"));
+        assert!(wrong("[way").found.contains("end"));
+        assert!(wrong("x").found.contains("there is no `x`"));
+        assert_eq!(wrong("way]").column, 4);
     }
 
     #[test]

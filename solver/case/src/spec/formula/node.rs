@@ -14,21 +14,40 @@ pub type Place = [f64; 4];
 #[derive(Debug, Clone, PartialEq)]
 pub enum Node {
     Number(f64),
-    /// x, y, z or t by its number.
+    /// x, y, z or t by its number, or one of other variables.
     Variable(usize),
     Call(Function, Vec<Node>),
 }
 
 impl Node {
-    /// Its value at a place and a time.
-    pub fn at(&self, place: &Place) -> f64 {
+    /// Its value by those of the variables.
+    #[inline]
+    pub fn at(&self, place: &[f64]) -> f64 {
         match self {
             Self::Number(value) => *value,
-            Self::Variable(which) => place[*which],
+            Self::Variable(which) => place.get(*which).copied().unwrap_or(f64::NAN),
             Self::Call(function, parts) => {
                 let value = |nth: usize| parts.get(nth).map_or(f64::NAN, |part| part.at(place));
                 function.value(value)
             }
+        }
+    }
+
+    /// The numbers of all variables it depends on are added to these.
+    pub fn collect(&self, variables: &mut Vec<usize>) {
+        match self {
+            Self::Number(_) => {}
+            Self::Variable(which) => variables.push(*which),
+            Self::Call(_, parts) => parts.iter().for_each(|part| part.collect(variables)),
+        }
+    }
+
+    /// It with other numbers for its variables.
+    pub fn renumber(&mut self, number: &impl Fn(usize) -> usize) {
+        match self {
+            Self::Number(_) => {}
+            Self::Variable(which) => *which = number(*which),
+            Self::Call(_, parts) => parts.iter_mut().for_each(|part| part.renumber(number)),
         }
     }
 

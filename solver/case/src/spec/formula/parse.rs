@@ -8,17 +8,8 @@ use super::function::{Function, NAMED};
 use super::node::{Definitions, Node};
 use crate::text::nearest::nearest;
 
-/// A name, and the number of what it stands for.
-pub type Variable = (&'static str, usize);
-
-/// What expressions depend on in the plane.
-pub const IN_PLANE: [Variable; 3] = [("x", 0), ("y", 1), ("t", 3)];
-
-/// What they depend on in space.
-pub const IN_SPACE: [Variable; 4] = [("x", 0), ("y", 1), ("z", 2), ("t", 3)];
-
-/// What they depend on along a midline.
-pub const ALONG_MIDLINE: [Variable; 2] = [("s", 0), ("t", 3)];
+/// What expressions depend on.
+pub const VARIABLES: [&str; 4] = ["x", "y", "z", "t"];
 
 /// Numbers with a name.
 pub const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
@@ -44,6 +35,20 @@ impl fmt::Display for FormulaError {
 }
 
 impl std::error::Error for FormulaError {}
+
+/// What names in an expression may stand for.
+#[derive(Debug, Clone, Copy)]
+pub enum Known<'a> {
+    /// Coordinates and the time.
+    Place {
+        /// How many coordinates there are.
+        dimensions: usize,
+    },
+    /// The part s of a midline, which stands for x, and the time.
+    Midline,
+    /// Variables, whose names are in brackets.
+    Names(&'a [String]),
+}
 
 /// A token, and the character at which it begins, from 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,6 +77,8 @@ const fn operator(sign: &'static str, function: Function) -> Operator {
 enum Token {
     Number(f64),
     Name(String),
+    /// What is in brackets.
+    Bracketed(String),
     Sign(&'static str),
     End,
 }
@@ -80,7 +87,7 @@ impl fmt::Display for Token {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(value) => write!(formatter, "`{value}`"),
-            Self::Name(name) => write!(formatter, "`{name}`"),
+            Self::Name(name) | Self::Bracketed(name) => write!(formatter, "`{name}`"),
             Self::Sign(sign) => write!(formatter, "`{sign}`"),
             Self::End => formatter.write_str("the end of the expression"),
         }
@@ -90,7 +97,7 @@ impl fmt::Display for Token {
 /// Signs, longer ones first.
 const SIGNS: [&str; 12] = ["<=", ">=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
-fn tokens(text: &str) -> Result<Vec<Placed>, FormulaError> {
+fn tokens(text: &str, known: Known<'_>) -> Result<Vec<Placed>, FormulaError> {
     let characters: Vec<char> = text.chars().collect();
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -107,6 +114,8 @@ fn tokens(text: &str) -> Result<Vec<Placed>, FormulaError> {
             let name: String = rest.iter().take_while(is_in).collect();
             let length = name.len();
             Leading { token: Token::Name(name), length }
+        } else if first == '[' && matches!(known, Known::Names(_)) {
+            bracketed(rest, characters.len() + 1)?
         } else {
             let begins =
                 |sign: &&str| sign.chars().zip(rest).filter(|(a, b)| a == *b).count() == sign.len();
@@ -122,6 +131,16 @@ fn tokens(text: &str) -> Result<Vec<Placed>, FormulaError> {
     }
     tokens.push(Placed { token: Token::End, column: characters.len() + 1 });
     Ok(tokens)
+}
+
+/// The name in brackets that a text begins with; `end` is the column behind the whole text.
+fn bracketed(rest: &[char], end: usize) -> Result<Leading, FormulaError> {
+    let Some(length) = rest.iter().position(|c| *c == ']') else {
+        let found = Token::End.to_string();
+        return Err(refuse(end, found, "`]` is expected behind a name in brackets"));
+    };
+    let name: String = rest[1..length].iter().collect();
+    Ok(Leading { token: Token::Bracketed(name.trim().to_owned()), length: length + 1 })
 }
 
 /// The number that a text begins with, and its length.
@@ -156,9 +175,9 @@ fn number(rest: &[char], at: usize) -> Result<Leading, FormulaError> {
 pub fn parse(
     text: &str,
     definitions: &Definitions,
-    variables: &[Variable],
+    known: Known<'_>,
 ) -> Result<Node, FormulaError> {
-    let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, definitions, variables };
+    let mut parser = Parser { tokens: tokens(text, known)?, at: 0, depth: 0, definitions, known };
     let root = parser.comparison()?;
     match parser.next() {
         Placed { token: Token::End, .. } => Ok(root),
@@ -177,7 +196,7 @@ struct Parser<'a> {
     at: usize,
     depth: usize,
     definitions: &'a Definitions,
-    variables: &'a [Variable],
+    known: Known<'a>,
 }
 
 impl Parser<'_> {
@@ -271,6 +290,10 @@ impl Parser<'_> {
         match self.next() {
             Placed { token: Token::Number(value), .. } => Ok(Node::Number(value)),
             Placed { token: Token::Name(name), column } => self.named(&name, column),
+            Placed { token: Token::Bracketed(name), column } => {
+                let variable = self.variable(&name, column)?;
+                variable.ok_or_else(|| self.unknown(&name, column))
+            }
             Placed { token: Token::Sign("("), .. } => {
                 let inside = self.comparison()?;
                 self.close()?;
@@ -295,12 +318,8 @@ impl Parser<'_> {
         if let Some(function) = Function::named(name) {
             return self.call(name, column, function);
         }
-        if let Some((_, which)) = self.variables.iter().find(|(known, _)| *known == name) {
-            return Ok(Node::Variable(*which));
-        }
-        if name == "z" && self.variables == IN_PLANE {
-            let accepted = "x and y are the coordinates in the plane";
-            return Err(refuse(column, "there is no `z`".to_owned(), accepted));
+        if let Some(variable) = self.variable(name, column)? {
+            return Ok(variable);
         }
         if let Some((_, value)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
             return Ok(Node::Number(*value));
@@ -308,14 +327,56 @@ impl Parser<'_> {
         if let Some(value) = self.definitions.get(name) {
             return Ok(Node::Number(*value));
         }
+        Err(self.unknown(name, column))
+    }
+
+    /// The variable of a name, if there is one.
+    fn variable(&self, name: &str, column: usize) -> Result<Option<Node>, FormulaError> {
+        let which = match self.known {
+            Known::Place { dimensions } => {
+                let which = VARIABLES.iter().position(|known| *known == name);
+                if which == Some(2) && dimensions < 3 {
+                    let accepted = "x and y are the coordinates in the plane";
+                    return Err(refuse(column, "there is no `z`".to_owned(), accepted));
+                }
+                which
+            }
+            Known::Midline => VARIABLES.iter().position(|known| match name {
+                "s" => *known == "x",
+                _ => name == "t" && *known == "t",
+            }),
+            Known::Names(names) => names.iter().position(|known| known == name),
+        };
+        Ok(which.map(Node::Variable))
+    }
+
+    fn unknown(&self, name: &str, column: usize) -> FormulaError {
         let functions = NAMED.iter().map(|(name, _)| *name);
-        let variables = self.variables.iter().map(|(known, _)| *known).chain(["pi", "e"]);
         let own = self.definitions.keys().map(String::as_str);
-        let known: Vec<&str> = own.chain(variables).chain(functions).collect();
-        let near = nearest(name, &known);
-        let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
-        let accepted = format!("{near}known: {}; numbers get names in [define]", known.join(", "));
-        Err(FormulaError { column, found: format!("there is no `{name}`"), accepted })
+        let found = format!("there is no `{name}`");
+        let of_place = |variables: &[&'static str]| {
+            let variables = variables.iter().copied().chain(["t", "pi", "e"]);
+            let known: Vec<&str> = own.clone().chain(variables).chain(functions.clone()).collect();
+            let near = nearest(name, &known);
+            let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+            format!("{near}known: {}; numbers get names in [define]", known.join(", "))
+        };
+        let accepted = match self.known {
+            Known::Place { dimensions } => of_place(&VARIABLES[..dimensions]),
+            Known::Midline => of_place(&["s"]),
+            Known::Names(names) => {
+                let names = names.iter().map(String::as_str);
+                let known: Vec<&str> =
+                    own.clone().chain(names).chain(["pi", "e"]).chain(functions.clone()).collect();
+                let near = nearest(name, &known);
+                let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+                format!(
+                    "{near}known in brackets: quantities as series.csv has them, time, target.NAME, action.COMMAND \
+                     and names of [environment.value]"
+                )
+            }
+        };
+        FormulaError { column, found, accepted }
     }
 
     fn call(
