@@ -11,6 +11,7 @@ mod law;
 mod lift;
 mod measure;
 mod mover;
+mod pushes;
 mod simulate;
 mod swimmer;
 mod told;
