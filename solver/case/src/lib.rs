@@ -49,7 +49,6 @@ pub use spec::body::squirmer::SquirmerGait;
 pub use spec::body::stroke::{Stroke, smooth_ramp};
 pub use spec::body::swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use spec::body::{Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, PartSpec, ShapeSpec};
-pub use spec::calibration::{CalibrationSpec, FitBy, RecordFrame, RecordSpec};
 pub use spec::case::Case;
 pub use spec::comparison::reference::{
     Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant,
@@ -77,6 +76,7 @@ pub use spec::optimisation::{
     OptimumReference, SearchSettings, WeightedQuantity,
 };
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
+pub use spec::reduced::calibration::{CalibrationSpec, FitBy, RecordFrame, RecordSpec};
 pub use spec::reduced::law::{Coefficient, LoadLaw};
 pub use spec::reduced::parts::{
     BuoyancySpec, CalibratedSpec, ConnectionSpec, LagSpec, ThrusterSpec,

@@ -1,6 +1,5 @@
 //! The command line: commands, their output, and the exit codes.
 
-mod calibrate;
 mod check;
 mod complete;
 mod exit;
@@ -197,7 +196,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         }
         Command::Run(options) => run::run(&options),
         Command::Gradient(options) => gradient::gradient(&options),
-        Command::Calibrate(options) => calibrate::calibrate(&options),
+        Command::Calibrate(options) => soft::calibrate(&options),
         Command::Optimise(options) => optimise::optimise(&options),
         Command::Loop(options) => soft::rounds(&options),
         Command::Plot(options) => plot::plot(&options),

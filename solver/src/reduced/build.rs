@@ -7,10 +7,10 @@ use alewife_reduced::tree::{
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
 use super::ReducedError;
-use super::acting::{Propeller, Pull};
 use super::hung::{Hung, angle_about};
-use super::inertia::Solid;
+use super::inertia::{Solid, in_space};
 use super::law::Law;
+use super::pushes::{Propeller, Pull};
 use super::told::Told;
 use crate::case::{Body, FlowModel, Geometry, Model, Motion, ReducedSpec};
 
@@ -74,6 +74,12 @@ pub(super) struct Builder<'a> {
     pub coordinates: Vec<[f64; 2]>,
 }
 
+/// How the first link moves, and where it starts.
+struct Footing {
+    root: Root,
+    at: Placement<f64>,
+}
+
 /// The frame of the centre of mass of a body in the world.
 fn place(body: &Body, solid: &Solid, geometry: Geometry) -> Isometry3<f64> {
     let frame = if geometry == Geometry::Spatial {
@@ -84,11 +90,6 @@ fn place(body: &Body, solid: &Solid, geometry: Geometry) -> Isometry3<f64> {
         Isometry3::from_parts(Translation3::new(at(0), at(1), 0.0), turned)
     };
     frame * Translation3::from(solid.center)
-}
-
-/// A vector of a case in space.
-pub(super) fn in_space(v: &[f64]) -> Vector3<f64> {
-    Vector3::from_fn(|axis, _| v.get(axis).copied().unwrap_or(0.0))
 }
 
 fn pose_of(frame: &Isometry3<f64>) -> Pose<f64> {
@@ -134,7 +135,7 @@ impl<'a> Builder<'a> {
         let (Some(first), None) = (roots.next(), roots.next()) else {
             return Err(ReducedError::Unknown("several swimmers".to_owned()));
         };
-        let (root, at) = self.add_root(first)?;
+        let footing = self.add_root(first)?;
         let mut waiting: Vec<usize> = (0..model.bodies.len()).filter(|one| *one != first).collect();
         while !waiting.is_empty() {
             let before = waiting.len();
@@ -150,11 +151,12 @@ impl<'a> Builder<'a> {
             }
             waiting = later;
         }
-        self.made(first, root, at)
+        self.made(first, footing)
     }
 
     /// The tree of all links, and what acts on it.
-    fn made(self, first: usize, root: Root, at: Placement<f64>) -> Result<Reduced, ReducedError> {
+    fn made(self, first: usize, footing: Footing) -> Result<Reduced, ReducedError> {
+        let Footing { root, at } = footing;
         let (model, spec) = (self.model, &self.spec);
         let parts: Option<Vec<Part>> = self.parts.iter().cloned().collect();
         let parts = parts.ok_or_else(|| ReducedError::Unknown("bodies apart".to_owned()))?;
@@ -217,14 +219,14 @@ impl<'a> Builder<'a> {
     }
 
     /// The first body, on what holds or guides it.
-    fn add_root(&mut self, body: usize) -> Result<(Root, Placement<f64>), ReducedError> {
+    fn add_root(&mut self, body: usize) -> Result<Footing, ReducedError> {
         let geometry = self.geometry();
         let one = &self.model.bodies[body];
         let frame = place(one, &self.solids[body], geometry);
         if self.model.joint_above(body).is_some() {
             self.push(Link::root(Symmetric::zero()), Told::Nothing, [0.0; 2]);
             self.add_child(None, body)?;
-            return Ok((Root::Held, Placement::identity()));
+            return Ok(Footing { root: Root::Held, at: Placement::identity() });
         }
         let is_guided = matches!(one.motion, Motion::Imposed(_))
             || !one.locked.is_empty()
@@ -232,7 +234,7 @@ impl<'a> Builder<'a> {
         if is_guided && one.motion != Motion::Held {
             self.guide(body, &frame);
             let ground = Isometry3::from_parts(frame.translation, UnitQuaternion::identity());
-            return Ok((Root::Held, placement_of(&ground)));
+            return Ok(Footing { root: Root::Held, at: placement_of(&ground) });
         }
         let mut link = Link::root(Symmetric::zero());
         self.fill(body, &Pose::identity(), &mut link);
@@ -242,7 +244,7 @@ impl<'a> Builder<'a> {
             (_, Geometry::Spatial) => Root::Free,
             _ => Root::Planar,
         };
-        Ok((root, placement_of(&frame)))
+        Ok(Footing { root, at: placement_of(&frame) })
     }
 
     pub fn push(&mut self, link: Link<f64>, told: Told, start: [f64; 2]) {

@@ -3,9 +3,17 @@
 use alewife_reduced::tree::{Drive, JointKind as Kind, Link, Pose, Symmetric};
 use nalgebra::{Isometry3, Vector3};
 
-use super::build::{Builder, in_space, lone};
+use super::build::{Builder, lone};
+use super::inertia::in_space;
 use super::told::Told;
 use crate::case::{Body, Geometry, ImposedMotion, Lock, Motion};
+
+/// A link of the chain, with what its joint is told and how it starts.
+struct Guided {
+    link: Link<f64>,
+    told: Told,
+    start: [f64; 2],
+}
 
 /// How the body goes along or about an axis.
 enum Way {
@@ -53,7 +61,11 @@ impl Builder<'_> {
     pub fn guide(&mut self, body: usize, frame: &Isometry3<f64>) {
         let one = &self.model.bodies[body];
         let geometry = self.geometry();
-        let mut chain = vec![(Link::root(Symmetric::zero()), Told::Nothing, [0.0; 2])];
+        let mut chain = vec![Guided {
+            link: Link::root(Symmetric::zero()),
+            told: Told::Nothing,
+            start: [0.0; 2],
+        }];
         let spring = one.spring.as_ref();
         let number = |v: &[f64], k: usize| v.get(k).copied().unwrap_or(0.0);
         let translations = [Lock::X, Lock::Y, Lock::Z];
@@ -80,7 +92,8 @@ impl Builder<'_> {
         let last = chain.len() - 1;
         let rotation = *frame.rotation.to_rotation_matrix().matrix();
         let inside = Pose { rotation, position: Vector3::zeros() };
-        for (number, (mut link, told, start)) in chain.into_iter().enumerate() {
+        for (number, guided) in chain.into_iter().enumerate() {
+            let Guided { mut link, told, start } = guided;
             if number == last {
                 self.fill(body, &inside, &mut link);
             }
@@ -90,12 +103,7 @@ impl Builder<'_> {
 }
 
 /// Adds a joint to a chain, but one that is locked.
-fn hang(
-    chain: &mut Vec<(Link<f64>, Told, [f64; 2])>,
-    joint: alewife_reduced::tree::Joint<f64>,
-    way: Way,
-    rate: f64,
-) {
+fn hang(chain: &mut Vec<Guided>, joint: alewife_reduced::tree::Joint<f64>, way: Way, rate: f64) {
     let (joint, told, rate) = match way {
         Way::Locked => return,
         Way::Free => (joint, Told::Nothing, rate),
@@ -106,5 +114,6 @@ fn hang(
         }
     };
     let parent = chain.len() - 1;
-    chain.push((Link::new(parent, joint, Symmetric::zero()), told, [0.0, rate]));
+    let link = Link::new(parent, joint, Symmetric::zero());
+    chain.push(Guided { link, told, start: [0.0, rate] });
 }

@@ -4,7 +4,6 @@ use alewife_mesh::SecondMoments;
 use nalgebra::{Matrix3, Vector3};
 
 use super::ReducedError;
-use super::build::in_space;
 use crate::case::{Body, Geometry, Link, ShapeSpec, ShapedLink};
 
 /// What a tree needs of a body, a density.
@@ -83,4 +82,9 @@ fn planar(shape: &ShapeSpec) -> Option<Solid> {
         middle,
         semi_axes: Vector3::new(half, extent.half_width, extent.half_width),
     })
+}
+
+/// A vector of a case in space.
+pub(super) fn in_space(v: &[f64]) -> Vector3<f64> {
+    Vector3::from_fn(|axis, _| v.get(axis).copied().unwrap_or(0.0))
 }

@@ -12,6 +12,7 @@ mod lift;
 mod measure;
 mod mover;
 mod play;
+mod pushes;
 mod simulate;
 mod swimmer;
 mod told;

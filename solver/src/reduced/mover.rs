@@ -4,8 +4,9 @@ use alewife_reduced::tree::{
     Connection, Drift, Number, Scheme, State, Stepper, Tree, TreeError, Twist, magnus, real,
 };
 
-use super::acting::{Acting, Propeller};
+use super::acting::Acting;
 use super::build::Reduced;
+use super::pushes::Propeller;
 
 /// By which equations a tree moves.
 enum Rule<T: Number> {

@@ -9,7 +9,6 @@
 mod calibrated_file;
 pub(crate) mod case_text;
 mod columns;
-mod left_out;
 pub mod library;
 mod outline_file;
 pub(crate) mod problem_keys;
@@ -33,6 +32,7 @@ use self::reference_rows::REFERENCES;
 use self::typing::typed;
 use self::variants::{apply_variant, check_names, variant_names};
 use crate::model::region::opposite;
+use crate::spec::reduced::left_out::{Completed, completed};
 use crate::sweep::spec;
 use crate::text::diagnostic::{CaseError, Diagnostic, Severity};
 use crate::text::names::SWEEP;
@@ -254,7 +254,7 @@ impl UntypedCase {
         stroke_file::resolve(&mut self.root).map_err(wrong)?;
         region_file::resolve(&mut self.root).map_err(wrong)?;
         calibrated_file::resolve(&mut self.root).map_err(wrong)?;
-        let (complete, left_out) = left_out::completed(&self.root).map_err(wrong)?;
+        let Completed { root: complete, left_out } = completed(&self.root).map_err(wrong)?;
         let mut case = typed(&complete)?;
         case.left_out = left_out;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;

@@ -1,7 +1,6 @@
 //! What the keys of a case are: its types, their ranges, and what each of them means by itself.
 
 pub(crate) mod body;
-pub(crate) mod calibration;
 pub(crate) mod case;
 pub(crate) mod comparison;
 pub(crate) mod contact;

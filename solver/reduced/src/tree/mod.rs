@@ -17,6 +17,8 @@ mod tendon;
 mod thrusters;
 mod topology;
 
+pub use num_dual::Dual64;
+
 pub use connection::{Connection, magnus, nodes};
 pub use drift::Drift;
 pub use equations::Inputs;

@@ -1,11 +1,13 @@
 //! Soft cases on the command line: `run --fidelity soft`, `check`, `show`, `calibrate`, `optimise`, `loop`.
 
+mod calibrate;
 mod check;
 mod directory;
 mod rounds;
 mod run;
 mod search;
 
+pub use calibrate::calibrate;
 pub use check::{check, show};
 pub use directory::{not_written, prepare};
 pub use rounds::{LoopOptions, rounds};

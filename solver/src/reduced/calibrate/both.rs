@@ -1,12 +1,11 @@
 //! Loads and tracks of runs at once: the one says what forces are, the other what they lead to.
 
-use alewife_reduced::tree::{Fit, Residuals, TreeError, fit};
-use num_dual::Dual64;
+use alewife_reduced::tree::{Dual64, Fit, Residuals, TreeError, fit};
 
-use super::Sought;
 use super::error::CalibrateError;
 use super::loads::Loads;
 use super::record::Record;
+use super::sought::Sought;
 use super::tracks::motion;
 
 /// Fits both, each by its mean square over its size, by the method of Gauss and Newton.

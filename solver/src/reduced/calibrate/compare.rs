@@ -2,11 +2,11 @@
 
 use nalgebra::Vector3;
 
-use super::Sought;
 use super::error::CalibrateError;
 use super::kinematics::moved;
 use super::loads::{load, sizes};
 use super::record::Record;
+use super::sought::Sought;
 use super::tracks::motion;
 use crate::reduced::simulate::simulate;
 use crate::run::Series;
@@ -62,7 +62,7 @@ pub fn deviations(
         let run = with_found(record, sought, found);
         let own = simulate(&run)?;
         for swimmer in &record.model.swimmers {
-            for (name, model, recorded) in of_swimmer(&swimmer.name, &own, series) {
+            for Pair { name, model, run: recorded } in of_swimmer(&swimmer.name, &own, series) {
                 add(&name, model, recorded, model / recorded - 1.0);
             }
         }
@@ -99,8 +99,15 @@ fn with_found(record: &Record, sought: &Sought, found: &[f64]) -> crate::case::M
     model
 }
 
+/// A quantity by the model and in the run.
+struct Pair {
+    name: String,
+    model: f64,
+    run: f64,
+}
+
 /// Ways, yaws, and averages over the last cycle of a swimmer by the model and in the run.
-fn of_swimmer(name: &str, model: &Series, run: &Series) -> Vec<(String, f64, f64)> {
+fn of_swimmer(name: &str, model: &Series, run: &Series) -> Vec<Pair> {
     let mut all = Vec::new();
     let last = |series: &Series, what: &str| {
         let column = series.column(&format!("{name}.{what}"))?;
@@ -108,7 +115,7 @@ fn of_swimmer(name: &str, model: &Series, run: &Series) -> Vec<(String, f64, f64
     };
     for what in ["cycle.speed", "cycle.power", "cycle.cost_of_transport"] {
         if let (Some(model), Some(run)) = (last(model, what), last(run, what)) {
-            all.push((format!("{name}.{what}"), model, run));
+            all.push(Pair { name: format!("{name}.{what}"), model, run });
         }
     }
     let way = |series: &Series| {
@@ -121,14 +128,14 @@ fn of_swimmer(name: &str, model: &Series, run: &Series) -> Vec<(String, f64, f64
         Some(sum.norm())
     };
     if let (Some(model), Some(run)) = (way(model), way(run)) {
-        all.push((format!("{name} way"), model, run));
+        all.push(Pair { name: format!("{name} way"), model, run });
     }
     let yaw = |series: &Series| {
         let column = series.column(&format!("{name}.angle"))?;
         Some(column.last()? - column.first()?)
     };
     if let (Some(model), Some(run)) = (yaw(model), yaw(run)) {
-        all.push((format!("{name} yaw"), model, run));
+        all.push(Pair { name: format!("{name} yaw"), model, run });
     }
     all
 }

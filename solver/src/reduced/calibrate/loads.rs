@@ -1,14 +1,13 @@
 //! Loads on bodies that move as in runs of the full solver, and the coefficients that make them those of the runs.
 
 use alewife_reduced::tree::{
-    Fit, Number, Pose, Residuals, TreeError, Twist, Wrench, fit, fit_linear, real,
+    Dual64, Fit, Number, Pose, Residuals, TreeError, Twist, Wrench, fit, fit_linear, real,
 };
-use num_dual::Dual64;
 
-use super::Sought;
 use super::error::CalibrateError;
 use super::kinematics::{Moved, moved};
 use super::record::Record;
+use super::sought::Sought;
 use crate::reduced::build::Part;
 
 /// Steps of Gauss and Newton at most, where a law is not linear.

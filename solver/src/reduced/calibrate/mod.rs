@@ -8,15 +8,17 @@ mod kinematics;
 mod loads;
 mod record;
 mod report;
+mod sought;
 mod tracks;
 
 pub use compare::Deviation;
 pub use error::CalibrateError;
 
-use alewife_reduced::tree::{Bounds, Fit};
+use alewife_reduced::tree::Fit;
 
-use self::record::{Record, records};
-use crate::case::{CalibrationSpec, CaseFile, FitBy, LoadLaw, ReducedSpec};
+use self::record::{Origin, Record, records};
+use self::sought::Sought;
+use crate::case::{CaseFile, FitBy, LoadLaw, ReducedSpec};
 
 /// What a calibration has found.
 #[derive(Debug, Clone)]
@@ -34,50 +36,6 @@ pub struct Calibrated {
     case: String,
     bodies: Vec<String>,
     origins: Vec<Origin>,
-}
-
-/// Where a run or record is from.
-#[derive(Debug, Clone)]
-struct Origin {
-    name: String,
-    hash: String,
-    is_held_out: bool,
-    rows: usize,
-    periods: Vec<f64>,
-    amplitudes: Vec<f64>,
-    viscosity: f64,
-}
-
-/// Which coefficients of a law are found, by their numbers.
-pub(super) struct Sought {
-    numbers: Vec<usize>,
-    bounds: Vec<Bounds>,
-    start: Vec<f64>,
-}
-
-impl Sought {
-    fn new(spec: &CalibrationSpec, reduced: &ReducedSpec) -> Self {
-        let all = reduced.loads.coefficients();
-        let number = |name: &String| all.iter().position(|one| one.name == name);
-        let numbers: Vec<usize> = spec.fit.iter().filter_map(number).collect();
-        let own = reduced.coefficients_of("");
-        let bound = |name: &String| {
-            let [lower, upper] = spec.bounds_of(name);
-            Bounds { lower, upper }
-        };
-        let bounds = spec.fit.iter().map(bound).collect();
-        let start = numbers.iter().map(|number| own[*number]).collect();
-        Self { numbers, bounds, start }
-    }
-
-    /// All coefficients of a body with those that are found at other values.
-    fn filled<T: alewife_reduced::tree::Number>(&self, own: &[f64], found: &[T]) -> Vec<T> {
-        let mut all: Vec<T> = own.iter().map(|value| alewife_reduced::tree::real(*value)).collect();
-        for (number, value) in self.numbers.iter().zip(found) {
-            all[*number] = *value;
-        }
-        all
-    }
 }
 
 /// Steps of Gauss and Newton at most.

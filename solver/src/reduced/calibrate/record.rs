@@ -3,12 +3,24 @@
 use std::path::{Path, PathBuf};
 
 use super::error::CalibrateError;
-use super::{Origin, file};
+use super::file;
 use crate::case::{
     CalibrationSpec, Case, CaseFile, Model, RecordSpec, ReducedSpec, TimeSettings, check_reduced,
 };
 use crate::reduced::build::Reduced;
 use crate::run::Series;
+
+/// Where a run or record is from.
+#[derive(Debug, Clone)]
+pub struct Origin {
+    pub name: String,
+    pub hash: String,
+    pub is_held_out: bool,
+    pub rows: usize,
+    pub periods: Vec<f64>,
+    pub amplitudes: Vec<f64>,
+    pub viscosity: f64,
+}
 
 /// A way or an angle of a body, and its values.
 #[derive(Debug, Clone)]

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use toml::{Table, Value};
 
-use super::{Calibrated, Origin};
+use super::Calibrated;
+use super::record::Origin;
 use crate::case::{FitBy, significant};
 
 impl Calibrated {

@@ -1,11 +1,10 @@
 //! Tracks of bodies by the reduced model, and the coefficients that make them those of records.
 
-use alewife_reduced::tree::{Fit, Number, Pose, Residuals, Tree, TreeError, fit, real};
-use num_dual::Dual64;
+use alewife_reduced::tree::{Dual64, Fit, Number, Pose, Residuals, Tree, TreeError, fit, real};
 
-use super::Sought;
 use super::error::CalibrateError;
 use super::record::Record;
+use super::sought::Sought;
 use crate::reduced::lift;
 use crate::reduced::mover::Mover;
 

@@ -1,6 +1,8 @@
 //! `[reduced]`: by which laws a swimmer moves where no flow is solved for.
 
+pub(crate) mod calibration;
 pub(crate) mod law;
+pub(crate) mod left_out;
 pub(crate) mod parts;
 
 use std::collections::BTreeMap;

@@ -16,15 +16,21 @@ const SPATIAL: &str =
 /// Tables that may be left out.
 const TABLES: [&str; 2] = ["domain", "mesh"];
 
+/// A tree, and the names of what was left out of it.
+pub struct Completed {
+    pub root: TomlNode,
+    pub left_out: Vec<&'static str>,
+}
+
 /// The tree with what it leaves out, and the names of that.
 ///
 /// # Errors
 /// None that a user can make.
-pub fn completed(root: &TomlNode) -> Result<(TomlNode, Vec<&'static str>), TreeError> {
+pub fn completed(root: &TomlNode) -> Result<Completed, TreeError> {
     let mut root = root.clone();
     let mut left_out = Vec::new();
     if root.get("reduced").is_none_or(|reduced| reduced.table().is_none()) {
-        return Ok((root, left_out));
+        return Ok(Completed { root, left_out });
     }
     let is_spatial = root.get("geometry").and_then(TomlNode::text) == Some("spatial");
     let text = if is_spatial { SPATIAL } else { PLANAR };
@@ -40,7 +46,7 @@ pub fn completed(root: &TomlNode) -> Result<(TomlNode, Vec<&'static str>), TreeE
             left_out.push(name);
         }
     }
-    Ok((root, left_out))
+    Ok(Completed { root, left_out })
 }
 
 impl Case {

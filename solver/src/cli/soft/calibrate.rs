@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use alewife_reduced::tier::Which;
 
-use super::exit::{Exit, Failure};
-use super::read::{print_warnings, read_and_check};
-use super::soft::{SearchOptions, seek};
-use super::style::say;
+use super::{SearchOptions, seek};
 use crate::case::soft::SoftFile;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::read::{print_warnings, read_and_check};
+use crate::cli::style::say;
 use crate::observer::write_atomic;
 use crate::reduced::{CalibrateError, ReducedError, calibrate as find};
 
