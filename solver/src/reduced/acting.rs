@@ -4,7 +4,7 @@ use alewife_reduced::tree::{Command, Inputs, Number, Wrench, real};
 use nalgebra::Matrix3;
 
 use super::build::Reduced;
-use super::pushes::Propeller;
+use super::inputs::pushes::Propeller;
 
 /// All that acts on a tree over a step.
 pub(super) struct Acting<'a> {

@@ -9,9 +9,9 @@ use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, UnitVector3, Ve
 use super::ReducedError;
 use super::hung::{Hung, angle_about};
 use super::inertia::{Solid, in_space};
+use super::inputs::pushes::{Propeller, Pull};
+use super::inputs::told::Told;
 use super::law::Law;
-use super::pushes::{Propeller, Pull};
-use super::told::Told;
 use crate::case::{Body, FlowModel, Geometry, Model, Motion, ReducedSpec};
 
 /// Where a body is in the tree, and what the fluid does to it.

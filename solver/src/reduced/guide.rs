@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::build::{Builder, lone};
 use super::inertia::in_space;
-use super::told::Told;
+use super::inputs::told::Told;
 use crate::case::{Body, Geometry, ImposedMotion, Lock, Motion};
 
 /// A link of the chain, with what its joint is told and how it starts.

@@ -4,7 +4,7 @@ use alewife_reduced::tree::{Drive, Joint, JointKind as Kind};
 use nalgebra::{Rotation3, UnitQuaternion, UnitVector3, Vector3};
 
 use super::ReducedError;
-use super::told::Told;
+use super::inputs::told::Told;
 use crate::case::{JointKind, Stroke};
 
 /// Angle of a rotation about an axis (rad), within half a turn.

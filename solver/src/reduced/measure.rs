@@ -5,7 +5,7 @@ use alewife_reduced::tree::{Pose, State, Twist, Wrench};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use super::build::Reduced;
-use super::told::Told;
+use super::inputs::told::Told;
 use crate::case::{BodyQuantity, Component, JointQuantity, Source, SwimmerQuantity};
 
 /// A quantity.

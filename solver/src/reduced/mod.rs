@@ -7,15 +7,14 @@ mod error;
 mod guide;
 mod hung;
 mod inertia;
+mod inputs;
 mod law;
 mod lift;
 mod measure;
 mod mover;
 mod play;
-mod pushes;
 mod simulate;
 mod swimmer;
-mod told;
 
 pub use calibrate::{CalibrateError, Calibrated, Deviation, calibrate};
 pub use error::ReducedError;

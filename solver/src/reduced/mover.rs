@@ -6,7 +6,7 @@ use alewife_reduced::tree::{
 
 use super::acting::Acting;
 use super::build::Reduced;
-use super::pushes::Propeller;
+use super::inputs::pushes::Propeller;
 
 /// By which equations a tree moves.
 enum Rule<T: Number> {

@@ -8,9 +8,9 @@ use nalgebra::Matrix3;
 use super::ReducedError;
 use super::acting::Acting;
 use super::build::Reduced;
+use super::inputs::told::Told;
 use super::measure::{Last, Moving, Value, bodies_after, joint};
 use super::swimmer::Now;
-use super::told::Told;
 use crate::case::{
     BodyQuantity, Column, Command, Follower, JointQuantity, Model, Source, Stroke, SwimmerQuantity,
     TimeSettings,

@@ -6,21 +6,16 @@
 //! inherited: what is known of one problem does not hold for another. Then the values of files take the place of
 //! their names.
 
-mod calibrated_file;
 pub(crate) mod case_text;
 mod columns;
+pub(crate) mod files;
 pub mod library;
-mod outline_file;
 pub(crate) mod problem_keys;
-pub(crate) mod read_mesh;
 pub(crate) mod recording;
 mod reference_rows;
 mod reference_table;
-mod region_file;
 pub(crate) mod schema;
 pub(crate) mod sought;
-mod stroke_file;
-mod surface_file;
 mod typing;
 mod variants;
 
@@ -28,6 +23,9 @@ use std::sync::Arc;
 
 use self::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
 use self::columns::{midline_file, probe_line, seed_file};
+use self::files::{
+    calibrated_file, outline_file, read_mesh, region_file, stroke_file, surface_file,
+};
 use self::reference_rows::REFERENCES;
 use self::typing::typed;
 use self::variants::{apply_variant, check_names, variant_names};

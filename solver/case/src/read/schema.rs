@@ -57,9 +57,9 @@ mod tests {
 
     use super::schema;
     use crate::Case;
+    use crate::read::files::stroke_file::FileStroke;
     use crate::read::reference_rows::REFERENCES;
     use crate::read::reference_table::ReferenceTable;
-    use crate::read::stroke_file::FileStroke;
     use crate::text::choices::CHOICES;
 
     /// The schema of `Case`, and `extends`, which only reading knows.

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::spec::SoftCase;
 use crate::read::case_text::{Located, locate, source_beside};
-use crate::read::read_mesh::bytes_of;
+use crate::read::files::read_mesh::bytes_of;
 use crate::read::{UntypedCase, collect_numbers, location, wrong};
 use crate::text::diagnostic::{CaseError, Diagnostic, Severity};
 use crate::text::source::{Location, Origin};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::case_text::source_beside;
+use crate::read::case_text::source_beside;
 use crate::text::tree::{self, TomlNode, TomlValue, TreeError};
 
 /// What is taken over from the table `calibrated` of the file.

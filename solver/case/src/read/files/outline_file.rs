@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::case_text::source_beside;
 use super::surface_file;
+use crate::read::case_text::source_beside;
 use crate::text::source::{Origin, Source};
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
 

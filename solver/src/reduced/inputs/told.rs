@@ -6,7 +6,7 @@ use crate::case::{DrivenLaw, Stroke, TimeFunction};
 
 /// What a joint is told: its coordinate or its rate, or the effort of its motor.
 #[derive(Debug, Clone)]
-pub(super) enum Told {
+pub(in crate::reduced) enum Told {
     /// Nothing.
     Nothing,
     /// Its coordinate.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use csv::{ReaderBuilder, StringRecord, Trim};
 use serde::Deserialize;
 
-use super::case_text::source_beside;
+use crate::read::case_text::source_beside;
 use crate::text::source::{Origin, Source};
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
 use crate::text::type_error::{KNOTS_OF_A_FILE, TypeError, suggestion};

@@ -7,7 +7,7 @@ use crate::case::{LagSpec, Stroke, ThrusterSpec, TimeFunction};
 
 /// A force and a torque from outside on a body, about its centre of mass.
 #[derive(Debug, Clone)]
-pub(super) struct Pull {
+pub(in crate::reduced) struct Pull {
     pub link: usize,
     /// The centre and axes of the body in the frame of the link.
     pub inside: Pose<f64>,
@@ -32,7 +32,7 @@ impl Pull {
 
 /// A propeller, and what it gives over a step.
 #[derive(Debug, Clone)]
-pub(super) struct Propeller {
+pub(in crate::reduced) struct Propeller {
     pub link: usize,
     drive: Stroke,
     thruster: Thrusters<f64>,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use alewife_mesh::{MshOptions, Place};
 
-use super::library;
+use crate::read::library;
 use crate::spec::mesh_file::Contents;
 use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TreeError};
