@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut batch = Batch::open(&file, n, 1)?;
         batch.reset(None, None)?;
         let mut random = SplitMix64(1);
-        let actions: Vec<f64> = (0..5 * n).map(|_| 2.0 * random.next() - 1.0).collect();
+        let actions: Vec<f64> = (0..5 * n).map(|_| 2.0 * random.uniform() - 1.0).collect();
         batch.step(&actions, Autoreset::NextStep)?;
         let repeats = (2048 / n).clamp(1, 20) * DECISIONS;
         let start = Instant::now();

@@ -19,7 +19,7 @@ fn read(settings: &[&str]) -> CaseFile {
 
 /// Actions without a pattern.
 fn actions(random: &mut SplitMix64, n: usize) -> Vec<f64> {
-    (0..n).map(|_| 2.0 * random.next() - 1.0).collect()
+    (0..n).map(|_| 2.0 * random.uniform() - 1.0).collect()
 }
 
 const RANDOM: &str =
@@ -318,7 +318,7 @@ fn a_linear_feedback_learns_to_reach_targets_it_has_not_seen() {
     for nth in 0..24 {
         // A step that helped is tried once more, any other is drawn anew
         if direction == [0.0; 5] || nth % 6 == 0 {
-            direction = std::array::from_fn(|_| 1.2 * (random.next() - 0.5));
+            direction = std::array::from_fn(|_| 1.2 * (random.uniform() - 0.5));
         }
         let other = Policy(std::array::from_fn(|k| best.0[k] + direction[k]));
         let found = other.try_on(&mut batch, &training)[0];

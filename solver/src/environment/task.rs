@@ -179,7 +179,7 @@ impl Task {
         let mut sample = || {
             let mut numbers: Vec<WrittenNumber> = Vec::new();
             for one in &self.spec.randomise {
-                let value = one.law.draw([random.next(), random.next()]);
+                let value = one.law.draw([random.uniform(), random.uniform()]);
                 numbers.push(WrittenNumber { path: one.key.clone(), value });
             }
             let wrong = |what: String| {
@@ -207,9 +207,9 @@ impl Task {
     /// Draws sample and targets of the next episode.
     pub(super) fn begin(&self, episode: &mut Episode, n_samples: usize) {
         let random = &mut episode.random;
-        episode.sample = whole(random.next() * n_samples as f64).min(n_samples - 1);
+        episode.sample = whole(random.uniform() * n_samples as f64).min(n_samples - 1);
         for (place, law) in episode.targets.iter_mut().zip(self.spec.target.values()) {
-            *place = law.draw([random.next(), random.next()]);
+            *place = law.draw([random.uniform(), random.uniform()]);
         }
         episode.action.fill(0.0);
         episode.n_decisions = 0;

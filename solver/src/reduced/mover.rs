@@ -1,7 +1,8 @@
 //! `Mover`: what moves the tree of a case from step to step.
 
 use alewife_reduced::tree::{
-    Connection, Drift, Number, Scheme, State, Stepper, Tree, TreeError, Twist, magnus, real,
+    Connection, Drift, Number, Scheme, State, Stepper, Tree, TreeError, Twist, compiled::Compiled,
+    magnus, real,
 };
 
 use super::acting::Acting;
@@ -25,7 +26,7 @@ pub(super) struct Mover<T: Number> {
     propellers: Vec<Propeller>,
 }
 
-impl<T: Number> Mover<T> {
+impl<T: Compiled> Mover<T> {
     /// Of a tree of a case in the state that it starts from, whose velocities it finds where there is no inertia.
     ///
     /// # Errors
@@ -68,8 +69,8 @@ impl<T: Number> Mover<T> {
         }
         let acting = Acting { reduced, propellers: &self.propellers };
         match &mut self.rule {
-            Rule::Steps(stepper) => stepper.step(&self.tree, state, step, &acting)?,
-            Rule::Drift(drift) => drift.step(state, step, &acting)?,
+            Rule::Steps(stepper) => T::advance(stepper, &self.tree, state, step, &acting)?,
+            Rule::Drift(drift) => T::drift(drift, state, step, &acting)?,
             Rule::Table(table, links) => {
                 let (root, time) = (state.root, state.time);
                 let twist = |at: f64| connect(reduced, table, links, state, at);

@@ -1,7 +1,7 @@
 //! `Player`: a reduced model that is asked for something while it moves, many motions of it side by side.
 
 use alewife_reduced::tree::{
-    Command as Asked, Drift, Inputs, Scheme, State, Stepper, TreeError, Wrench, compiled,
+    Command as Asked, Drift, Inputs, Scheme, State, Stepper, TreeError, Wrench, compiled::Compiled,
 };
 use nalgebra::Matrix3;
 
@@ -84,8 +84,8 @@ impl Mover {
         inputs: &dyn Inputs<f64>,
     ) -> Result<(), TreeError> {
         match self {
-            Self::Steps(stepper) => compiled::advance(stepper, &reduced.tree, state, step, inputs),
-            Self::Drift(drift) => compiled::drift(drift, state, step, inputs),
+            Self::Steps(stepper) => f64::advance(stepper, &reduced.tree, state, step, inputs),
+            Self::Drift(drift) => f64::drift(drift, state, step, inputs),
         }
     }
 }

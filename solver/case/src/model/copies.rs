@@ -153,7 +153,7 @@ impl RandomCopies<'_> {
             let found = (0..TRIALS).find_map(|_| {
                 let mut center = Point::<D>::zeros();
                 for axis in 0..D {
-                    let along = random.next();
+                    let along = random.uniform();
                     // Bodies of an axisymmetric case are on the axis
                     if axis == 0 || geometry != Geometry::Axisymmetric {
                         center[axis] = min[axis] + along * (max[axis] - min[axis]);
@@ -178,7 +178,7 @@ impl RandomCopies<'_> {
             let mut pose = placed(geometry, swimmer, coordinates(center.as_slice()));
             if *turned {
                 match &mut pose {
-                    PartPose::Planar(pose) => pose.angle = TAU * random.next(),
+                    PartPose::Planar(pose) => pose.angle = TAU * random.uniform(),
                     PartPose::Spatial(pose) => pose.rotation = random.rotation(),
                 }
             }

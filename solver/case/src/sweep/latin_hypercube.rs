@@ -12,7 +12,7 @@ pub fn sample(ranges: &[Range], n: usize, seed: u64) -> Vec<Vec<f64>> {
     for range in ranges {
         let order = shuffled(n, &mut random);
         for (row, stratum) in rows.iter_mut().zip(order) {
-            row.push(range.at((stratum as f64 + random.next()) / n as f64));
+            row.push(range.at((stratum as f64 + random.uniform()) / n as f64));
         }
     }
     rows
@@ -23,7 +23,7 @@ fn shuffled(n: usize, random: &mut SplitMix64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..n).collect();
     for last in (1..n).rev() {
         // The product may round to the upper end
-        order.swap(last, whole(random.next() * (last + 1) as f64).min(last));
+        order.swap(last, whole(random.uniform() * (last + 1) as f64).min(last));
     }
     order
 }

@@ -1,5 +1,6 @@
 //! Tracks of bodies by the reduced model, and the coefficients that make them those of records.
 
+use alewife_reduced::tree::compiled::Compiled;
 use alewife_reduced::tree::{Dual64, Fit, Number, Pose, Residuals, Tree, TreeError, fit, real};
 
 use super::error::CalibrateError;
@@ -49,7 +50,7 @@ pub fn lever(record: &Record) -> f64 {
 }
 
 /// Tracks at the times of a record by the model with other coefficients, in between linear over its steps.
-pub fn motion<T: Number>(
+pub fn motion<T: Compiled>(
     record: &Record,
     coefficients: impl Fn(&[f64]) -> Vec<T>,
 ) -> Result<Vec<Vec<T>>, TreeError> {

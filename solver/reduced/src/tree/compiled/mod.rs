@@ -1,4 +1,4 @@
-//! Steps of trees of plain numbers, and where their links are: compiled here, with all optimisation.
+//! Steps of trees of the numbers in use, and where their links are: compiled here, with all optimisation.
 //!
 //! What is generic is compiled where it is used, and the packages that use it are compiled in a hurry: there the same step
 //! takes a hundred times as long.
@@ -13,19 +13,73 @@ use super::spatial::{Pose, Twist, Wrench};
 use super::state::State;
 use super::step::Stepper;
 use super::topology::Tree;
+use super::{Dual64, Number};
 
 /// Commands of any kind.
-struct Any<'a>(&'a dyn Inputs<f64>);
+struct Any<'a, T: Number>(&'a dyn Inputs<T>);
 
-impl Inputs<f64> for Any<'_> {
-    fn command(&self, time: f64, link: usize) -> Command<f64> {
+impl<T: Number> Inputs<T> for Any<'_, T> {
+    fn command(&self, time: f64, link: usize) -> Command<T> {
         self.0.command(time, link)
     }
 
-    fn wrench(&self, time: f64, link: usize, rotation: &Matrix3<f64>) -> Option<Wrench<f64>> {
+    fn wrench(&self, time: f64, link: usize, rotation: &Matrix3<T>) -> Option<Wrench<T>> {
         self.0.wrench(time, link, rotation)
     }
 }
+
+/// Numbers for which steps are compiled here.
+pub trait Compiled: Number {
+    /// `Stepper::step`.
+    ///
+    /// # Errors
+    /// As it has them.
+    fn advance(
+        stepper: &mut Stepper<Self>,
+        tree: &Tree<Self>,
+        state: &mut State<Self>,
+        step: f64,
+        inputs: &dyn Inputs<Self>,
+    ) -> Result<(), TreeError>;
+
+    /// `Drift::step`.
+    ///
+    /// # Errors
+    /// As it has them.
+    fn drift(
+        drift: &mut Drift<Self>,
+        state: &mut State<Self>,
+        step: f64,
+        inputs: &dyn Inputs<Self>,
+    ) -> Result<(), TreeError>;
+}
+
+macro_rules! compiled {
+    ($($number:ty),*) => { $(
+        impl Compiled for $number {
+            fn advance(
+                stepper: &mut Stepper<Self>,
+                tree: &Tree<Self>,
+                state: &mut State<Self>,
+                step: f64,
+                inputs: &dyn Inputs<Self>,
+            ) -> Result<(), TreeError> {
+                stepper.step(tree, state, step, &Any(inputs))
+            }
+
+            fn drift(
+                drift: &mut Drift<Self>,
+                state: &mut State<Self>,
+                step: f64,
+                inputs: &dyn Inputs<Self>,
+            ) -> Result<(), TreeError> {
+                drift.step(state, step, &Any(inputs))
+            }
+        }
+    )* };
+}
+
+compiled!(f64, Dual64);
 
 /// Where links are, how they move, and what the fluid does to them.
 #[derive(Debug, Clone, Default)]
@@ -36,33 +90,6 @@ pub struct Looked {
     pub twists: Vec<Twist<f64>>,
     /// As `Tree::fluid_wrenches` has them; none where they are not asked for.
     pub wrenches: Vec<Wrench<f64>>,
-}
-
-/// `Stepper::step` of plain numbers.
-///
-/// # Errors
-/// As it has them.
-pub fn advance(
-    stepper: &mut Stepper<f64>,
-    tree: &Tree<f64>,
-    state: &mut State<f64>,
-    step: f64,
-    inputs: &dyn Inputs<f64>,
-) -> Result<(), TreeError> {
-    stepper.step(tree, state, step, &Any(inputs))
-}
-
-/// `Drift::step` of plain numbers.
-///
-/// # Errors
-/// As it has them.
-pub fn drift(
-    drift: &mut Drift<f64>,
-    state: &mut State<f64>,
-    step: f64,
-    inputs: &dyn Inputs<f64>,
-) -> Result<(), TreeError> {
-    drift.step(state, step, &Any(inputs))
 }
 
 /// Where the links of a tree are, with or without what the fluid does to them.
