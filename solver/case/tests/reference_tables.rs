@@ -208,7 +208,9 @@ fn all_shipped_cases_are_their_own_texts() {
             Err(error) => panic!("{}: {error}", shipped.name),
         };
         assert_eq!(copied.case(), named.case(), "{}", shipped.name);
-        assert!(!named.case().reference.is_empty() || !named.case().variant.is_empty());
+        // A reduced run is not compared with references yet
+        let is_compared = !named.case().reference.is_empty() || !named.case().variant.is_empty();
+        assert!(is_compared || named.case().reduced.is_some(), "{}", shipped.name);
     }
 }
 

@@ -55,7 +55,7 @@ fn what_cannot_be_sought_is_refused_where_it_is_written() {
     let found = refused(at, &["optimise", "dfg-2d-1", "--out", "w"], 65);
     assert!(found.contains("no [optimisation]"), "{found}");
     let found = refused(at, &["calibrate", "disc.toml", "--out", "w"], 65);
-    assert!(found.contains("[soft]"), "{found}");
+    assert!(found.contains("no [calibration]"), "{found}");
     assert!(!at.join("w").exists());
 }
 

@@ -6,7 +6,6 @@
 
 mod angles;
 mod body;
-mod calibration;
 mod command;
 mod contact;
 mod declared;
@@ -68,7 +67,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     references::check(&mut findings);
     reduced::check(&mut findings);
     optimisation::check(&mut findings, file);
-    calibration::check(&mut findings);
+    reduced::calibration::check(&mut findings);
     environment::check(&mut findings, file);
     extremes::check(&mut findings, file);
     if has_flow && findings.has_no_error() {

@@ -170,9 +170,7 @@ fn number_example(text: &str) -> String {
     if unit.is_empty() {
         return format!("write it without quotes: {digits}");
     }
-    format!(
-        "write the number alone, in the units of all others in the case: {digits}, if that is so"
-    )
+    format!("write the number without quotes and without its unit, in those of the case: {digits}")
 }
 
 /// How an array is written instead of what is there.

@@ -1,6 +1,7 @@
 //! Problems of `[reduced]`: coefficients that are none, and what no law of loads knows.
 
 mod bodies;
+pub mod calibration;
 mod connection;
 mod parts;
 

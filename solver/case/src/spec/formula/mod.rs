@@ -1,6 +1,7 @@
 //! `Formula`: a number, or an expression of x, y, z, t and the numbers of `[define]`.
 
 mod dual;
+mod error;
 mod function;
 mod node;
 mod parse;
@@ -11,10 +12,10 @@ use num_dual::DualNum;
 use serde::de::{self, Deserializer, Visitor};
 use serde::{Deserialize, Serialize};
 
+pub use self::error::FormulaError;
 use self::function::Function;
 use self::node::Node;
 pub use self::node::{Definitions, Place};
-pub use self::parse::FormulaError;
 
 /// A number, or an expression as it is written.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -4,6 +4,7 @@
 
 use std::fmt;
 
+use super::error::FormulaError;
 use super::function::{Function, NAMED};
 use super::node::{Definitions, Node};
 use crate::text::nearest::nearest;
@@ -16,25 +17,6 @@ pub const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("e", std
 
 /// Parts within parts, beyond which an expression is refused rather than the stack overflows.
 const DEEPEST: usize = 100;
-
-/// What is not understood in an expression.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FormulaError {
-    /// Character of the text, from 1.
-    pub column: usize,
-    /// What is there.
-    pub found: String,
-    /// What would be accepted.
-    pub accepted: String,
-}
-
-impl fmt::Display for FormulaError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "at character {}: {}; {}", self.column, self.found, self.accepted)
-    }
-}
-
-impl std::error::Error for FormulaError {}
 
 /// What names in an expression may stand for.
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 //! Problems of `[calibration]`, and of a calibrated file in a case it was not found for.
 
-use super::Findings;
-use super::reduced::is_a_body;
+use super::is_a_body;
+use crate::rules::Findings;
 use crate::text::nearest::nearest;
 use crate::{CalibratedSpec, CalibrationSpec, FitBy, Geometry, RecordSpec, TimeSettings};
 
