@@ -46,7 +46,9 @@ fn members(name: &str) -> Vec<String> {
 fn assert_solved(in_space: bool, more_than: usize) {
     let names = library::list().iter().filter(|shipped| {
         let file = Case::read(shipped.name, &[]).expect("shipped cases are valid");
-        (file.case().geometry.dimensions() == 3) == in_space
+        // Some are moved by their reduced models alone
+        let has_flow = file.case().left_out.is_empty();
+        has_flow && (file.case().geometry.dimensions() == 3) == in_space
     });
     let members: Vec<String> = names.flat_map(|shipped| members(shipped.name)).collect();
     assert!(members.len() > more_than, "cases and variants: {}", members.len());
