@@ -39,9 +39,12 @@ macro_rules! each {
 }
 
 enum Solver {
-    Reduced(Mutex<Swim>),
+    Reduced(Box<Mutex<Swim>>),
     Full(Worker<AnyFull>),
 }
+
+/// What a step of many gives: six arrays, and observations at the ends of episodes if there are any.
+type Stepped<T> = ([T; 6], Option<T>);
 
 /// One environment.
 #[pyclass(frozen, module = "alewife_session")]
@@ -145,7 +148,7 @@ impl Environment {
             Solver::Full(worker)
         } else {
             let swim = py.detach(move || Swim::open(&file)).map_err(refused)?;
-            Solver::Reduced(Mutex::new(swim))
+            Solver::Reduced(Box::new(Mutex::new(swim)))
         };
         let (layout, reasons) = (layout_of(&task), owned(task.reasons()));
         Ok((Self { solver, layout, reasons, codes: task }, warnings))
@@ -175,7 +178,6 @@ impl Environment {
     }
 
     /// Takes an action: observation, reward, whether it is over and whether it is broken off.
-    #[expect(clippy::type_complexity, reason = "what gymnasium gives")]
     fn step<'py>(
         &self,
         py: Python<'py>,
@@ -240,7 +242,7 @@ impl Batch {
         py: Python<'py>,
         actions: &[u8],
         autoreset: &str,
-    ) -> PyResult<([Bound<'py, PyByteArray>; 6], Option<Bound<'py, PyByteArray>>)> {
+    ) -> PyResult<Stepped<Bound<'py, PyByteArray>>> {
         let mode = match autoreset {
             "NextStep" => Autoreset::NextStep,
             "SameStep" => Autoreset::SameStep,
@@ -274,7 +276,7 @@ impl Batch {
         &self,
         actions: &[f64],
         mode: Autoreset,
-    ) -> Result<([Vec<u8>; 6], Option<Vec<u8>>), EnvironmentError> {
+    ) -> Result<Stepped<Vec<u8>>, EnvironmentError> {
         let mut batch = self.held();
         batch.step(actions, mode)?;
         let (heads, task) = (batch.heads(), batch.task());

@@ -38,7 +38,8 @@ fn ballast_weighs_and_displaces_nothing() {
 #[test]
 fn thrusters_drive_it_by_their_curve_after_their_lag() {
     let curve = [8.9, 176.0, -404.1, 389.9, -140.3];
-    let force: f64 = (0..5).map(|k| curve[k] * 0.5_f64.powi(2 * k as i32 + 1)).sum();
+    let force: f64 =
+        [1, 3, 5, 7, 9].iter().zip(curve).map(|(power, part)| part * 0.5_f64.powi(*power)).sum();
     let thrust = 4.0 * force * std::f64::consts::FRAC_1_SQRT_2;
     let speed = ((13.7_f64.powi(2) + 564.0 * thrust).sqrt() - 13.7) / 282.0;
     let series = run("underwater-vehicle/thrusters", &[]);

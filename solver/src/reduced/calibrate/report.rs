@@ -140,7 +140,7 @@ impl Origin {
         table.insert("name".to_owned(), self.name.clone().into());
         table.insert("hash".to_owned(), self.hash.clone().into());
         table.insert("holdout".to_owned(), self.is_held_out.into());
-        table.insert("rows".to_owned(), (self.rows as i64).into());
+        table.insert("rows".to_owned(), i64::try_from(self.rows).unwrap_or(i64::MAX).into());
         table.into()
     }
 }
