@@ -35,8 +35,8 @@ pub use mesh::{
     map_quadratic, shape_functions,
 };
 pub use msh::{
-    Encoding, MshError, MshOptions, Place, ReadMsh, read_msh, read_msh_with, read_undivided_msh,
-    write_msh,
+    DomainMesh, Encoding, MshError, MshOptions, Place, ReadMsh, read_msh, read_msh_with,
+    read_undivided_msh, write_msh,
 };
 pub use number::whole;
 pub use planar::{
@@ -53,4 +53,4 @@ pub use sizing::{SizeBox, Sizing};
 pub use surface::{
     Facing, FacingSurfaces, NearSurface, Sides, Surface, SurfacePoint, Surroundings,
 };
-pub use vtu::{Array, Precision, write_vtu, write_vtu_as};
+pub use vtu::{Array, Precision, write_points_vtu, write_vtu, write_vtu_as};

@@ -14,6 +14,14 @@ use crate::{Mesh, Simplex};
 /// Bytes of a block before compression.
 const BLOCK: usize = 32 * 1024;
 
+/// The beginning of a file.
+const HEADER: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
+                      byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+                      compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n";
+
+/// A point as a cell.
+const VERTEX: u8 = 1;
+
 /// A named array of values at the nodes or in the cells.
 #[derive(Debug, Clone, Copy)]
 pub struct Array<'a> {
@@ -73,11 +81,7 @@ pub fn write_vtu_as<const D: usize>(
     cell_arrays: &[Array<'_>],
 ) -> io::Result<()> {
     let mut file = Appended::default();
-    let mut xml = String::from(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
-         byte_order=\"LittleEndian\" header_type=\"UInt64\" \
-         compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n",
-    );
+    let mut xml = String::from(HEADER);
     if let Some(time) = time {
         xml += "<FieldData>\n";
         let attributes = "type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\"";
@@ -113,11 +117,40 @@ pub fn write_vtu_as<const D: usize>(
     file.declare(&mut xml, &integers("offsets"), &offsets.collect::<Vec<u8>>())?;
     let kind: u8 = if D == 2 { 22 } else { 24 };
     file.declare(&mut xml, "type=\"UInt8\" Name=\"types\"", &vec![kind; mesh.n_cells()])?;
-    xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-    out.write_all(xml.as_bytes())?;
-    out.write_all(&file.data)?;
-    out.write_all(b"\n</AppendedData>\n</VTKFile>\n")?;
-    out.flush()
+    file.end(out.by_ref(), xml)
+}
+
+/// Writes points (m, three numbers each) as cells of their own, their time (s) and arrays with one value per point.
+///
+/// # Errors
+/// What `out` reports, and `InvalidInput` when an array has the wrong length.
+pub fn write_points_vtu(
+    precision: Precision,
+    mut out: impl Write,
+    points: &[f64],
+    time: f64,
+    arrays: &[Array<'_>],
+) -> io::Result<()> {
+    let n = points.len() / 3;
+    let mut file = Appended::default();
+    let mut xml = String::from(HEADER);
+    xml += "<FieldData>\n";
+    let attributes = "type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\"";
+    file.declare(&mut xml, attributes, &time.to_le_bytes())?;
+    xml += "</FieldData>\n";
+    xml += &format!("<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n}\">\n<PointData>\n");
+    for array in arrays {
+        file.declare_floats(&mut xml, precision, array, n)?;
+    }
+    xml += "</PointData>\n<Points>\n";
+    file.declare_floats(&mut xml, Precision::F64, &Array::new("Points", 3, points), n)?;
+    xml += "</Points>\n<Cells>\n";
+    let integers = |name: &str| format!("type=\"Int64\" Name=\"{name}\"");
+    let count = |from: u64| (from..from + n as u64).flat_map(u64::to_le_bytes).collect::<Vec<u8>>();
+    file.declare(&mut xml, &integers("connectivity"), &count(0))?;
+    file.declare(&mut xml, &integers("offsets"), &count(1))?;
+    file.declare(&mut xml, "type=\"UInt8\" Name=\"types\"", &vec![VERTEX; n])?;
+    file.end(out.by_ref(), xml)
 }
 
 /// The compressed arrays behind the header.
@@ -127,6 +160,15 @@ struct Appended {
 }
 
 impl Appended {
+    /// Ends the header, and writes it with all arrays.
+    fn end(&self, mut out: impl Write, mut xml: String) -> io::Result<()> {
+        xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+        out.write_all(xml.as_bytes())?;
+        out.write_all(&self.data)?;
+        out.write_all(b"\n</AppendedData>\n</VTKFile>\n")?;
+        out.flush()
+    }
+
     /// Declares an array in the header and appends its bytes.
     fn declare(&mut self, xml: &mut String, attributes: &str, bytes: &[u8]) -> io::Result<()> {
         let offset = self.data.len();

@@ -61,8 +61,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Endings of meshes of Gmsh and of surfaces of triangles.
 const NAMED: [&str; 4] = ["msh", "obj", "ply", "stl"];
 
-/// Tables that a case may name: a recorded motion and the references.
-const TABLES: [&str; 2] = ["record.csv", "references.csv"];
+/// Whether a case may name a table of this name: a recorded motion or the references.
+fn is_table(name: &str) -> bool {
+    name == "references.csv" || (name.starts_with("record") && name.ends_with(".csv"))
+}
 
 /// Files of a folder that its case may name: meshes, surfaces and tables.
 fn named_files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
@@ -71,9 +73,7 @@ fn named_files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
         let path = entry?.path();
         let ending = path.extension().and_then(|ending| ending.to_str());
         let name = path.file_name().and_then(|name| name.to_str());
-        if ending.is_some_and(|ending| NAMED.contains(&ending))
-            || name.is_some_and(|name| TABLES.contains(&name))
-        {
+        if ending.is_some_and(|ending| NAMED.contains(&ending)) || name.is_some_and(is_table) {
             files.push(path);
         }
     }

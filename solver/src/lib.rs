@@ -29,12 +29,13 @@
 
 pub mod cli;
 pub mod observer;
+pub mod optimise;
 pub mod reduced;
 pub mod runner;
 pub mod sweep;
 pub mod validation;
 
-pub use alewife_core::{body, case, coupling, flow, gradient, run, state, step, timing};
+pub use alewife_core::{body, case, coupling, flow, gradient, run, state, step, timing, tracer};
 
 /// The program of a page, compiled and run.
 #[cfg(doctest)]

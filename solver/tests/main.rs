@@ -2,6 +2,7 @@
 
 mod command_line;
 mod gradients;
+mod optimise;
 mod reduced;
 mod refusals;
 mod soft;

@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 34] = [
+const ROOMS: [(&str, &[&str]); 36] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -36,7 +36,8 @@ const ROOMS: [(&str, &[&str]); 34] = [
     ("gait", &["body", "case", "structure"]),
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "structure", "time", "timing"]),
-    ("state", &["body", "contact", "coupling", "space"]),
+    ("tracer", &[]),
+    ("state", &["body", "contact", "coupling", "space", "tracer"]),
     ("motion", &["algebra", "body", "contact", "coupling", "space", "state", "time"]),
     (
         "step",
@@ -72,11 +73,13 @@ const ROOMS: [(&str, &[&str]); 34] = [
             "structure",
             "time",
             "timing",
+            "tracer",
         ],
     ),
     ("gradient", &["algebra", "body", "case", "coupling", "motion", "run", "step"]),
     ("reduced", &["case", "run"]),
-    ("observer", &["body", "case", "flow", "run", "step", "timing"]),
+    ("optimise", &["case", "gradient"]),
+    ("observer", &["body", "case", "flow", "run", "step", "timing", "tracer"]),
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
     ("runner", &["case", "observer", "run", "step", "validation"]),
@@ -86,6 +89,7 @@ const ROOMS: [(&str, &[&str]); 34] = [
             "case",
             "gradient",
             "observer",
+            "optimise",
             "reduced",
             "run",
             "runner",
@@ -103,6 +107,8 @@ const FOREIGN: [(&str, &[&str]); 9] = [
     (
         "num_dual",
         &[
+            "solver/case/src/spec/body/given/midline.rs",
+            "solver/case/src/spec/formula/",
             "solver/core/src/gait/",
             "solver/reduced/src/tree/",
             "solver/solid/src/material/",

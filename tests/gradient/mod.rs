@@ -1,9 +1,10 @@
 //! Gradients of steady flows against differences of complete solutions, and against what is known exactly.
 
 mod exact;
+mod kinds;
 
 use alewife_core::case::Case;
-use alewife_core::gradient::{Derivatives, GradientError, GradientTask, gradients};
+use alewife_core::gradient::{Derivatives, GradientError, GradientTask, ReadCase, gradients};
 
 /// The gradients of quantities of a case, with differences where they are wanted.
 fn gradients_of(
@@ -12,16 +13,31 @@ fn gradients_of(
     by: &[&str],
     checks: bool,
 ) -> Result<Vec<Derivatives>, GradientError> {
+    let read = |settings: &[String]| Case::parse("case.toml", text, settings);
+    gradients_by(&read, of, by, checks)
+}
+
+/// The same of a case that is read so.
+fn gradients_by(
+    read: ReadCase<'_>,
+    of: &[&str],
+    by: &[&str],
+    checks: bool,
+) -> Result<Vec<Derivatives>, GradientError> {
     let [of, by] =
         [of, by].map(|names| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>());
-    let read = |settings: &[String]| Case::parse("case.toml", text, settings);
-    gradients(&GradientTask { read: &read, of: &of, by: &by, checks })
+    gradients(&GradientTask { read, of: &of, by: &by, checks })
 }
 
 /// Compares with differences, relative to the largest product of a derivative with its number.
 fn agrees(text: &str, of: &[&str], by: &[&str], tolerance: f64) {
+    compared(&|settings: &[String]| Case::parse("case.toml", text, settings), of, by, tolerance);
+}
+
+/// The same of a case that is read so.
+fn compared(read: ReadCase<'_>, of: &[&str], by: &[&str], tolerance: f64) {
     for Derivatives { of, value, by: found, differences, .. } in
-        gradients_of(text, of, by, true).unwrap()
+        gradients_by(read, of, by, true).unwrap()
     {
         assert!(value.is_finite());
         let size = found.iter().fold(0.0f64, |most, value| most.max(value.abs()));

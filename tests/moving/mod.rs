@@ -14,6 +14,7 @@ mod renumbered;
 mod resume;
 mod sheet;
 mod suspension;
+mod tracers;
 
 /// A box without flow; bodies are to follow.
 fn tank(model: &str, time: &str, mesh: &str) -> String {

@@ -150,6 +150,7 @@ fn in_uniform_flow(velocity: &Vector3<f64>, convection: Convection) -> Simulatio
         law: None,
         scheme,
         is_fresh: true,
+        tracers: None,
         stop: None,
     }
 }

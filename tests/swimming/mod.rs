@@ -8,6 +8,7 @@ mod cycle_error;
 mod deforming;
 mod invariance;
 mod joints;
+mod midline;
 mod orders;
 mod reciprocity;
 mod rods;

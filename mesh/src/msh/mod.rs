@@ -5,6 +5,7 @@
 
 mod assemble;
 mod divide;
+mod domain;
 mod error;
 mod facets;
 mod file;
@@ -18,6 +19,7 @@ mod plane;
 mod write;
 
 pub use assemble::{read_msh, read_msh_with, read_undivided_msh};
+pub use domain::DomainMesh;
 pub use error::{MshError, Place};
 pub use options::{MshOptions, ReadMsh};
 pub use write::{Encoding, write_msh};

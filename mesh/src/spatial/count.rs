@@ -1,10 +1,11 @@
 //! How many tetrahedra a size field asks for, before any of them is made.
 
 use super::domain::Domain;
+use super::region::Region;
 use super::shape::Body;
 use super::size_field::SizeField;
 use crate::count::{Cube, sum_over};
-use crate::{MeshError, Sizing};
+use crate::{MeshError, Point, Sizing};
 
 /// Cells over volume / size^3 where the size varies, fitted to meshes of the generator.
 const CELLS: f64 = 10.2;
@@ -35,6 +36,21 @@ pub fn estimate_cells(
     Ok(Count { sizes: &sizes, growth: sizing.growth, limit }.total(domain))
 }
 
+/// The same of [`generate_inside`](super::generate_inside).
+///
+/// # Errors
+/// What [`Sizing::check`] refuses.
+pub fn estimate_cells_inside(
+    region: &Region,
+    sizing: &Sizing<3>,
+    limit: f64,
+) -> Result<f64, MeshError> {
+    sizing.check(&region.sides().iter().map(String::as_str).collect::<Vec<_>>())?;
+    let sizes = SizeField::of(region.geometry(sizing), sizing);
+    let corners = sizes.geometry().corners;
+    Ok(Count { sizes: &sizes, growth: sizing.growth, limit }.within(corners))
+}
+
 /// The integral over the fluid.
 struct Count<'a> {
     sizes: &'a SizeField,
@@ -48,7 +64,11 @@ impl Count<'_> {
         if let Some(imported) = imported.filter(|_| self.sizes.geometry().groups.len() == 1) {
             return imported.mesh().n_cells() as f64;
         }
-        let [min, max] = domain.corners();
+        self.within(domain.corners())
+    }
+
+    /// The same within a box.
+    fn within(&self, [min, max]: [Point<3>; 2]) -> f64 {
         let half = 0.5 * (max - min).max();
         let whole = Cube { center: (min + max) * 0.5, half, depth: 0 };
         sum_over([whole], self.limit, |cube| self.cells_of(cube))
@@ -81,7 +101,6 @@ impl Count<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Point;
     use crate::spatial::{Centreline, Part, Shape, generate};
     use nalgebra::{Isometry3, UnitQuaternion};
 

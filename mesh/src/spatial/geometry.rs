@@ -7,9 +7,9 @@ use nalgebra::{Isometry3, Matrix3, Translation3};
 use super::domain::Domain;
 use super::imported::Imported;
 use super::shape::{Body, Part, Shape};
-use super::surface::{Ellipsoid, Foot, Form, Revolved, SmoothSurface, Tube};
+use super::surface::{Ellipsoid, Facets, Foot, Form, Revolved, SmoothSurface, Tube};
 use crate::periods::Periods;
-use crate::{Boundary, BoundaryId, BoundaryKind, MeshError, Point, Sizing};
+use crate::{Boundary, BoundaryId, BoundaryKind, Bounds, MeshError, Point, Sizing};
 
 /// Steps of Newton's method onto several surfaces at once.
 const MOST_STEPS: usize = 20;
@@ -47,6 +47,8 @@ pub struct Geometry {
     pub periods: Periods<3>,
     /// The mesh that is to be cut by the bodies, where one is given.
     pub imported: Option<Imported>,
+    /// The whole surface of a region whose sides are sheets of it.
+    pub enclosure: Option<Arc<Facets>>,
 }
 
 impl Geometry {
@@ -98,17 +100,41 @@ impl Geometry {
             Domain::Box { .. } | Domain::Cylinder { .. } | Domain::Ball { .. } => None,
         };
         let periods = Periods::new(domain.periods());
-        Ok(Self { surfaces, groups, boundaries, corners, periods, imported })
+        Ok(Self { surfaces, groups, boundaries, corners, periods, imported, enclosure: None })
     }
 
-    /// Whether a body has several parts, whose surfaces may meet.
+    /// The inside of a surface whose smooth parts are given.
+    pub fn inside(
+        sheets: Vec<SmoothSurface>,
+        boundaries: Vec<Boundary>,
+        enclosure: Arc<Facets>,
+    ) -> Self {
+        let bounds = Bounds::around(&enclosure.points().collect::<Vec<_>>());
+        let center = Point::<3>::zeros();
+        let (last, reach) = (sheets.len(), f64::INFINITY);
+        let all = Group { first: 0, last, center, reach, cut_by: Vec::new() };
+        Self {
+            surfaces: sheets,
+            groups: vec![all],
+            boundaries,
+            corners: [bounds.min, bounds.max],
+            periods: Periods::new(Point::<3>::zeros()),
+            imported: None,
+            enclosure: Some(enclosure),
+        }
+    }
+
+    /// Whether a body has several parts, whose surfaces may meet, or the region sharp edges.
     pub fn has_creases(&self) -> bool {
-        self.groups[1..].iter().any(|body| body.last > body.first + 1)
+        self.enclosure.is_some() || self.groups[1..].iter().any(|body| body.last > body.first + 1)
     }
 
     /// About the distance to the nearest surface (m), negative outside the fluid; where it is certain to
     /// exceed a bound, a value above the bound.
     pub fn clearance(&self, point: Point<3>, bound: f64) -> f64 {
+        if let Some(enclosure) = &self.enclosure {
+            return enclosure.foot(point).gap;
+        }
         let mut least = f64::INFINITY;
         for group in &self.groups {
             let apart = self.periods.beside(point, group.center) - group.center;

@@ -16,6 +16,7 @@ mod geometry;
 mod imported;
 mod least_gap;
 mod placement;
+mod region;
 mod sections;
 mod shape;
 mod size_field;
@@ -24,13 +25,14 @@ mod triangles;
 
 pub use body_surface::{BodySurface, MaterialPoint};
 pub use closest::{ClosestPoints, WallSurface};
-pub use count::estimate_cells;
+pub use count::{estimate_cells, estimate_cells_inside};
 pub use curve::{Centreline, SpaceSpline};
 pub use domain::Domain;
 pub use gap_query::GapQuery;
-pub use generate::generate;
+pub use generate::{generate, generate_inside};
 pub use imported::Imported;
 pub use placement::{check_placement, cutting_planes};
+pub use region::Region;
 pub use sections::{
     RulePoint, Section, SectionHeight, SectionMoments, SectionPoint, Sections, Summand,
 };
@@ -38,5 +40,6 @@ pub use shape::{Body, Part, Shape};
 pub use size_field::SizeField;
 pub use surface::{Slender, Triangulated};
 pub use triangles::{
-    Repaired, Repairs, SurfaceFault, SurfaceMeasures, SurfaceMoments, TriangleMesh,
+    NamedTriangles, Repaired, Repairs, SurfaceFault, SurfaceMeasures, SurfaceMoments,
+    TriangleGroup, TriangleMesh,
 };

@@ -3,6 +3,7 @@
 mod cylinder;
 mod periodic;
 mod random;
+mod regions;
 mod surfaces;
 mod tail;
 

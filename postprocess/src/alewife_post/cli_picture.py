@@ -152,8 +152,9 @@ def _filmed(options: argparse.Namespace) -> str:
 def add_particles(parser: argparse.ArgumentParser) -> None:
     """Paths that are drawn as well."""
     parser.add_argument(
-        "--particles", type=Path, metavar="DIR", help="draw what `alewife-post trace` wrote as well"
-    )
+        "--particles", type=Path, metavar="DIR",
+        help="draw what `alewife-post trace` wrote as well, or the tracers of a run",
+    )  # fmt: skip
 
 
 def add_run(parser: argparse.ArgumentParser, *, are_several: bool = False) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +20,8 @@ Array = np.ndarray
 
 PATHS, PARTICLES, LINES = "paths.csv", "particles.csv", "paths.vtp"
 """Files of a directory."""
+CARRIED = "tracers.pvd"
+"""The list of a run with particles of its own."""
 GAP = 2.0
 """Neighbours on a streak line that are so many times as far apart as usual are not joined."""
 TAIL = 0.12
@@ -178,11 +181,45 @@ def _at(times: Array, places: Array, time: float) -> Array:
     return np.array([np.interp(time, times, places[:, axis]) for axis in range(3)])
 
 
+def read_run(path: Path) -> Tracks:
+    """The particles of `[[tracer]]` of a run, by the files of `tracers.pvd`."""
+    import pyvista
+
+    sets = ElementTree.parse(path / CARRIED).getroot().iter("DataSet")
+    rows: dict[tuple[int, float, int], list[Array]] = {}
+    for one in sets:
+        file = path / one.attrib["file"]
+        if not file.is_file():
+            continue
+        time, data = float(one.attrib["timestep"]), pyvista.read(file).point_data
+        keys = zip(data["tracer"], data["released"], data["seed"], strict=True)
+        for key, left, place in zip(keys, data["left"], data["position"], strict=True):
+            if left == 0:
+                row = np.append(time, place)
+                rows.setdefault((int(key[0]), float(key[1]), int(key[2])), []).append(row)
+    if not rows:
+        raise ValueError(f"{path / CARRIED} has no particle in the fluid")
+    # A seed is one place of one of several [[tracer]]
+    seeds = {key: n for n, key in enumerate(dict.fromkeys((k[0], k[2]) for k in rows))}
+    ways = [np.array(way) for way in rows.values()]
+    return Tracks(
+        [seeds[cloud, seed] for cloud, _, seed in rows],
+        [released for _, released, _ in rows],
+        [way[:, 0] for way in ways],
+        [way[:, 1:] for way in ways],
+    )
+
+
 def read_paths(path: Path) -> Tracks:
-    """What `write_paths` wrote: the directory, or its table of places."""
+    """What `write_paths` wrote, the directory or its table of places, or a run with tracers."""
+    if (path / CARRIED).is_file():
+        return read_run(path)
     path = path / PATHS if path.is_dir() else path
     if not path.is_file():
-        raise FileNotFoundError(f"{path} does not exist: alewife-post trace writes it")
+        raise FileNotFoundError(
+            f"{path} does not exist: alewife-post trace writes it, and runs with [[tracer]] have "
+            f"{CARRIED}"
+        )
     table = np.genfromtxt(path, delimiter=",", names=True, ndmin=1)
     names = table.dtype.names or ()
     missing = {"seed", "released", "time", "x", "y"} - set(names)

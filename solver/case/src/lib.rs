@@ -16,21 +16,23 @@ pub use model::region::{normal_axis, opposite};
 pub use model::{Model, SwimmerModel};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
-    ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, columns,
-    known_quantities, reports_sides,
+    ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, TracerQuantity, columns,
+    differentiable_columns, known_quantities, reports_sides,
 };
 pub use read::CaseFile;
 pub use read::library;
 pub use read::problem_keys::collect_keys;
 pub use read::recording::Recording;
 pub use read::schema::schema;
-pub use rules::{at_rest, check, check_reduced};
+pub use read::sought::{KeyNumber, SOLVED_TABLES, SoughtNumber, numbers_at};
+pub use rules::{at_rest, check, check_flow, check_reduced};
 pub use spec::body::axial_vector::AxialVector;
 pub use spec::body::command::Command;
 pub use spec::body::gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
     JointsGait, PulsatingGait, TubeShape,
 };
+pub use spec::body::given::midline::{MidlineGait, MidlineLaw, MidlineTable, MidlineValues};
 pub use spec::body::joint::{Ball, Hinge, Joint, JointKind, Slider};
 pub use spec::body::link::{Link, ShapedLink};
 pub use spec::body::motion::by_axis::{
@@ -45,6 +47,7 @@ pub use spec::body::squirmer::SquirmerGait;
 pub use spec::body::stroke::{Stroke, smooth_ramp};
 pub use spec::body::swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use spec::body::{Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, PartSpec, ShapeSpec};
+pub use spec::calibration::{CalibrationSpec, FitBy, RecordFrame, RecordSpec};
 pub use spec::case::Case;
 pub use spec::comparison::reference::{
     Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant,
@@ -56,14 +59,24 @@ pub use spec::domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use spec::extent::Extent;
 pub use spec::field::{DipoleField, FieldSpec, LinearField, MagneticSpec, RotatingField};
 pub use spec::fluid::mean_flow::MeanFlowSpec;
+pub use spec::fluid::tracer::{SeedGrid, SeedLine, TracerRegion, TracerSpec};
 pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use spec::fluid::{FlowModel, Fluid};
 pub use spec::formula::{Definitions, Formula, FormulaError, ParsedFormula};
 pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use spec::mesh_file::MeshFile;
+pub use spec::optimisation::{
+    FlowObjective, FlowOptimisation, FlowParameter, NamedQuantity, ObjectiveExpression,
+    OptimumReference, SearchSettings, WeightedQuantity,
+};
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
-pub use spec::reduced::{AddedMassSpec, Coefficient, LoadLaw, ReducedSpec};
+pub use spec::reduced::law::{Coefficient, LoadLaw};
+pub use spec::reduced::parts::{
+    BuoyancySpec, CalibratedSpec, ConnectionSpec, LagSpec, ThrusterSpec,
+};
+pub use spec::reduced::{AddedMassSpec, ReducedSpec};
+pub use spec::region::{NamedSolid, RegionSpec, SidePart};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };
@@ -72,4 +85,5 @@ pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use text::diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use text::nearest::{nearest, several_nearest};
 pub use text::source::Location;
+pub use text::type_error::suggestion;
 pub use text::wall_time::WallTime;

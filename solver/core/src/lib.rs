@@ -12,6 +12,7 @@ pub mod state;
 pub mod step;
 pub mod time;
 pub mod timing;
+pub mod tracer;
 
 pub use alewife_case as case;
 pub use alewife_flow::{flow, space};

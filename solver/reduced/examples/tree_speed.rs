@@ -15,6 +15,7 @@ use alewife_reduced::tree::{
     Command, Drive, Inputs, Joint, JointKind, Link, PlacedLoad, Pose, Root, Scheme, Stepper,
     Symmetric, Tree, Wrench, vector,
 };
+use nalgebra::Matrix3;
 
 /// Few, so that a try often ends before another program takes the core.
 const STEPS: u32 = 500;
@@ -104,7 +105,7 @@ impl Inputs<f64> for Wave {
         }
     }
 
-    fn wrench(&self, _: f64, link: usize) -> Option<Wrench<f64>> {
+    fn wrench(&self, _: f64, link: usize, _: &Matrix3<f64>) -> Option<Wrench<f64>> {
         let push =
             Wrench { force: vector([self.thrust, 0.0, 0.0]), torque: vector([0.0, 0.0, 1.0]) };
         (link == 0 && self.thrust > 0.0).then_some(push)

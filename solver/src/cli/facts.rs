@@ -26,12 +26,16 @@ pub fn facts(file: &CaseFile) -> String {
         format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units.to_string()));
     line("geometry", units);
     line("fluid", fluid(case));
-    line("domain", domain(case));
-    let sides = case.sides().into_iter().filter(|side| *side != "axis").map(|side| {
-        let condition = case.boundary.get(side).map_or("nothing", condition_name);
-        format!("{side} {condition}")
-    });
-    line("boundary", sides.collect::<Vec<_>>().join(", "));
+    if case.is_reduced_only() {
+        line("domain", "none: run it with --fidelity reduced".to_owned());
+    } else {
+        line("domain", domain(case));
+        let sides = case.sides().into_iter().filter(|side| *side != "axis").map(|side| {
+            let condition = case.boundary.get(side).map_or("nothing", condition_name);
+            format!("{side} {condition}")
+        });
+        line("boundary", sides.collect::<Vec<_>>().join(", "));
+    }
     if let Some(flow) = &case.flow {
         line("flow", mean_flow(flow));
     }
@@ -113,6 +117,14 @@ fn domain(case: &Case) -> String {
                 _ => format!("of volume {}", significant(file.measure())),
             }
         ),
+        DomainSpec::Surface(region) => match region.mesh() {
+            Some(mesh) => format!(
+                "inside of a closed surface, of volume {}, first meshed by {} cells",
+                significant(mesh.measure()),
+                mesh.n_cells()
+            ),
+            None => "inside of a closed surface".to_owned(),
+        },
         DomainSpec::Disc { radius, .. } => format!("disc of radius {}", significant(*radius)),
         DomainSpec::HalfDisc { radius, .. } | DomainSpec::Sphere { radius, .. } => {
             format!("ball of radius {}", significant(*radius))
@@ -166,6 +178,7 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
         Some(GaitSpec::Carangiform(_)) => ", carangiform".to_owned(),
         Some(GaitSpec::Anguilliform(_)) => ", anguilliform".to_owned(),
         Some(GaitSpec::Flagellum(_)) => ", flagellum".to_owned(),
+        Some(GaitSpec::Midline(_)) => ", midline of its own".to_owned(),
         Some(GaitSpec::Pulsating(_)) => ", pulsating".to_owned(),
         Some(GaitSpec::Joints(gait)) => format!(", bent at {} joints", gait.joints.len()),
         None => String::new(),

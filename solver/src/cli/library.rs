@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::exit::{Exit, Failure};
 use super::facts::{facts, one_line};
+use super::optimise::search_line;
 use super::soft;
 use super::style::{Ink, on_stdout, say};
 use crate::case::soft::SoftFile;
@@ -77,6 +78,9 @@ fn summary(file: &CaseFile) -> String {
     let numbers = number_table(&file.model);
     if !numbers.is_empty() {
         let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));
+    }
+    if let Some(line) = search_line(file) {
+        let _ = writeln!(text, "\n{line}");
     }
     if !case.reference.is_empty() {
         let _ = writeln!(text, "\n{}", on_stdout(Ink::Bold, "references"));

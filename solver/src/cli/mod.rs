@@ -1,5 +1,6 @@
 //! The command line: commands, their output, and the exit codes.
 
+mod calibrate;
 mod check;
 mod complete;
 mod exit;
@@ -8,6 +9,7 @@ mod gradient;
 mod library;
 mod manual;
 mod mesh;
+mod optimise;
 mod panic;
 mod parent;
 mod plot;
@@ -24,7 +26,6 @@ mod verify;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use alewife_reduced::tier::Which;
 use clap::{CommandFactory, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 
@@ -111,9 +112,9 @@ enum Command {
     Run(run::Options),
     /// Print how quantities of a steady flow change with numbers of its case
     Gradient(gradient::Options),
-    /// Find the numbers of a soft case that make it move as recorded
+    /// Find the numbers of a soft case that make it move as recorded, or coefficients of a reduced model
     Calibrate(soft::SearchOptions),
-    /// Find the numbers of a soft case that make its objective large
+    /// Find the numbers of a case that make its objective large: of a soft case, or of a steady flow
     Optimise(soft::SearchOptions),
     /// Optimise, have a robot move so, and calibrate by what is seen, in turns
     Loop(soft::LoopOptions),
@@ -196,8 +197,8 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         }
         Command::Run(options) => run::run(&options),
         Command::Gradient(options) => gradient::gradient(&options),
-        Command::Calibrate(options) => soft::seek(&options, Which::Calibration),
-        Command::Optimise(options) => soft::seek(&options, Which::Optimisation),
+        Command::Calibrate(options) => calibrate::calibrate(&options),
+        Command::Optimise(options) => optimise::optimise(&options),
         Command::Loop(options) => soft::rounds(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),

@@ -6,7 +6,7 @@ use super::complete;
 use super::exit::{Exit, Failure};
 use super::style::{self, complain};
 use crate::case::soft::SoftFile;
-use crate::case::{CaseFile, Diagnostic, Severity, at_rest, check};
+use crate::case::{CaseFile, Diagnostic, Severity, at_rest, check, check_flow};
 
 /// Keys set on the command line.
 #[derive(Debug, Clone, Args)]
@@ -19,9 +19,16 @@ pub struct Settings {
 
 /// Reads a case and refuses it if it is wrong; warnings are reported and let through.
 pub fn read_case(argument: &str, settings: &[String]) -> Result<CaseFile, Failure> {
-    let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
+    let CheckedCase { file, warnings } = read_for_flow(argument, settings)?;
     print_warnings(&warnings);
     Ok(file)
+}
+
+/// The same with its warnings handed back; a case that only its reduced model can be run of is refused.
+pub fn read_for_flow(argument: &str, settings: &[String]) -> Result<CheckedCase, Failure> {
+    let checked = read_and_check(argument, settings)?;
+    let missing = check_flow(&checked.file);
+    if missing.is_empty() { Ok(checked) } else { Err(Failure::wrong(&missing)) }
 }
 
 /// Prints what is odd in a case.

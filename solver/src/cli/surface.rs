@@ -70,25 +70,24 @@ pub fn surface(options: &Options) -> Result<Exit, Failure> {
         Err(fault) => {
             let file = options.repair.as_ref().unwrap_or(&options.file).display();
             let help = fault.remedy();
-            Err(Failure::new(Exit::BadCase, format!("error: {file}: {fault}\n  help: {help}")))
+            Err(Failure::new(Exit::BadCase, format!("{file}: {fault}\n  help: {help}")))
         }
     }
 }
 
 fn read(path: &Path) -> Result<TriangleMesh, Failure> {
-    let named = |error: std::io::Error| {
-        Failure::new(Exit::NoInput, format!("error: {}: {error}", path.display()))
-    };
+    let named =
+        |error: std::io::Error| Failure::new(Exit::NoInput, format!("{}: {error}", path.display()));
     // Asked before it is opened: opening a pipe waits for somebody to write into it
     let found = std::fs::metadata(path).map_err(named)?;
     if !found.is_file() || found.len() > LARGEST_FILE {
-        let reason = format!("error: {} is no file of up to 1 GB", path.display());
+        let reason = format!("{} is no file of up to 1 GB", path.display());
         return Err(Failure::new(Exit::NoInput, reason));
     }
     let bytes = std::fs::read(path).map_err(named)?;
     TriangleMesh::read(&bytes).map_err(|fault| {
         let (file, help) = (path.display(), fault.remedy());
-        Failure::new(Exit::BadCase, format!("error: {file}: {fault}\n  help: {help}"))
+        Failure::new(Exit::BadCase, format!("{file}: {fault}\n  help: {help}"))
     })
 }
 

@@ -12,6 +12,7 @@
 //! | `series.csv` | One row a step | flushed every second |
 //! | `run.mcap` | Bodies and quantities as messages | flushed every few steps |
 //! | `fields/*.vtu`, `fields.pvd` | Velocity, pressure, vorticity | whole files only |
+//! | `tracers/*.vtu`, `tracers.pvd` | Particles of `[[tracer]]` | whole files only |
 //! | `checkpoints/*.state` | States to resume from | every ten minutes and at the end |
 //! | `comparison.json` | Computed against references, by the command line | at the end |
 //! | `lock` | Held while the run is under way | – |

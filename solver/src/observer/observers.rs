@@ -1,7 +1,7 @@
 //! `observers`: all who see a run, in the order in which they are notified.
 
 use super::console::Progress;
-use super::files::{CheckpointFiles, CommandsFile, FieldFiles, SeriesFile};
+use super::files::{CheckpointFiles, CommandsFile, FieldFiles, SeriesFile, TracerFiles};
 use super::live::LiveServer;
 use super::message_file::MessageFile;
 use super::run_directory::{History, LegFile, RunDirectory, StatusFile, WriteTimes, write_bodies};
@@ -41,6 +41,7 @@ where
         Box::new(SeriesFile::create(directory.path(), case, history)?),
         Box::new(MessageFile::create(directory, model, history, shown.live)?),
         Box::new(FieldFiles::new(directory, case, history)),
+        Box::new(TracerFiles::new(directory, case, history)),
         Box::new(CommandsFile::new(directory.path())),
         // After those whose rows and messages belong to a state
         Box::new(checkpoints),

@@ -100,6 +100,7 @@ impl Run {
             mesh: &self.mesh,
             velocity: &self.velocity,
             pressure: &self.pressure,
+            tracers: &[],
             bodies: &bodies,
             names: &self.names,
             values: &Self::values(step),

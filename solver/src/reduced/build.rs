@@ -1,68 +1,59 @@
 //! `Reduced`: the tree of a case, where its bodies are in it, and what its joints are told.
 
-use alewife_reduced::tree::loads::{
-    AddedMass, Ellipsoid, EllipsoidCoefficients, Load, Resistive, StripCoefficients, Strips,
-};
 use alewife_reduced::tree::{
-    Command, Drive, Joint, JointKind as Kind, Link, PlacedLoad, Placement, Pose, Root, State,
-    Symmetric, Tree, Weight,
+    Command, Connection, Joint, JointKind as Kind, Link, PlacedLoad, Placement, Pose, Root, State,
+    Symmetric, Tree, Weight, Wrench,
 };
-use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, UnitVector3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
 use super::ReducedError;
+use super::acting::{Propeller, Pull};
+use super::hung::{Hung, angle_about};
 use super::inertia::Solid;
-use crate::case::{
-    AddedMassSpec, Body, FlowModel, Geometry, JointKind, LoadLaw, Model, Motion, ReducedSpec,
-    Stroke,
-};
+use super::law::Law;
+use super::told::Told;
+use crate::case::{Body, FlowModel, Geometry, Model, Motion, ReducedSpec};
 
-/// Where a body is in the tree.
+/// Where a body is in the tree, and what the fluid does to it.
 #[derive(Debug, Clone)]
 pub(super) struct Part {
     /// Number of its link.
     pub link: usize,
-    /// Its centre and axes in the frame of the link.
+    /// Its centre of mass and axes in the frame of the link.
     pub inside: Pose<f64>,
     /// Mass (kg), or volume (m3) where there is no inertia.
     pub mass: f64,
-    /// Moments of inertia about its centre in its axes, of the same density.
-    pub moments: Vector3<f64>,
-}
-
-/// What a joint is told: its coordinate, or the effort of its motor.
-#[derive(Debug, Clone)]
-pub(super) enum Told {
-    /// Nothing.
-    Nothing,
-    /// Its coordinate.
-    Given(Stroke),
-    /// Its effort.
-    Effort(Stroke),
+    /// Inertia about its centre of mass in its axes, of the same density.
+    pub inertia: Matrix3<f64>,
+    pub law: Law,
+    pub coefficients: Vec<f64>,
+    /// Where the law is from the centre of mass, in the axes of the body.
+    pub place: Vector3<f64>,
 }
 
 /// A case as a tree.
 #[derive(Debug, Clone)]
 pub(super) struct Reduced {
     pub tree: Tree<f64>,
+    pub root: Root,
+    pub gravity: [f64; 3],
     /// Of each body of the model.
     pub parts: Vec<Part>,
     /// Of each link.
     pub told: Vec<Told>,
     pub start: State<f64>,
     pub has_inertia: bool,
+    /// Forces from outside.
+    pub pulls: Vec<Pull>,
+    /// Thrusters as they start.
+    pub propellers: Vec<Propeller>,
+    /// What moves it in place of loads, with the links of its joints.
+    pub connection: Option<(Connection, Vec<usize>)>,
 }
 
 impl Reduced {
     pub fn command(&self, time: f64, link: usize) -> Command<f64> {
-        let none = Command::none();
-        match &self.told[link] {
-            Told::Nothing => none,
-            Told::Given(stroke) => {
-                let [place, rate] = stroke.at(time);
-                Command { place, rate, ..none }
-            }
-            Told::Effort(stroke) => Command { effort: stroke.at(time)[0], ..none },
-        }
+        self.told[link].command(time)
     }
 
     pub fn new(model: &Model) -> Result<Self, ReducedError> {
@@ -70,18 +61,20 @@ impl Reduced {
     }
 }
 
-struct Builder<'a> {
-    model: &'a Model,
-    spec: ReducedSpec,
-    has_inertia: bool,
-    solids: Vec<Solid>,
-    links: Vec<Link<f64>>,
-    parts: Vec<Option<Part>>,
-    told: Vec<Told>,
-    coordinates: Vec<f64>,
+/// A tree in the making.
+pub(super) struct Builder<'a> {
+    pub model: &'a Model,
+    pub spec: ReducedSpec,
+    pub has_inertia: bool,
+    pub solids: Vec<Solid>,
+    pub links: Vec<Link<f64>>,
+    pub parts: Vec<Option<Part>>,
+    pub told: Vec<Told>,
+    /// Coordinates and rates of the joints of links at the start.
+    pub coordinates: Vec<[f64; 2]>,
 }
 
-/// The frame of the centre of a body in the world.
+/// The frame of the centre of mass of a body in the world.
 fn place(body: &Body, solid: &Solid, geometry: Geometry) -> Isometry3<f64> {
     let frame = if geometry == Geometry::Spatial {
         body.pose_in_space()
@@ -93,6 +86,11 @@ fn place(body: &Body, solid: &Solid, geometry: Geometry) -> Isometry3<f64> {
     frame * Translation3::from(solid.center)
 }
 
+/// A vector of a case in space.
+pub(super) fn in_space(v: &[f64]) -> Vector3<f64> {
+    Vector3::from_fn(|axis, _| v.get(axis).copied().unwrap_or(0.0))
+}
+
 fn pose_of(frame: &Isometry3<f64>) -> Pose<f64> {
     Pose {
         rotation: *frame.rotation.to_rotation_matrix().matrix(),
@@ -100,10 +98,9 @@ fn pose_of(frame: &Isometry3<f64>) -> Pose<f64> {
     }
 }
 
-/// Angle of a rotation about an axis (rad), within half a turn.
-fn angle_about(axis: &UnitVector3<f64>, rotation: &UnitQuaternion<f64>) -> f64 {
-    let angle = 2.0 * rotation.imag().dot(axis).atan2(rotation.w);
-    angle - (angle / std::f64::consts::TAU).round() * std::f64::consts::TAU
+fn placement_of(frame: &Isometry3<f64>) -> Placement<f64> {
+    let q = frame.rotation;
+    Placement { position: frame.translation.vector, quaternion: [q.w, q.i, q.j, q.k] }
 }
 
 impl<'a> Builder<'a> {
@@ -122,21 +119,29 @@ impl<'a> Builder<'a> {
         })
     }
 
+    pub fn geometry(&self) -> Geometry {
+        self.model.case.geometry
+    }
+
     /// Hangs all bodies on the root, parents first.
     fn finish(mut self) -> Result<Reduced, ReducedError> {
-        let (model, geometry) = (self.model, self.model.case.geometry);
-        let mut roots = (0..model.bodies.len()).filter(|body| model.joint_above(*body).is_none());
+        let model = self.model;
+        let is_root = |body: &usize| {
+            let above = model.joint_above(*body);
+            above.is_none_or(|joint| model.hangs_on_laboratory(&model.joints[joint]))
+        };
+        let mut roots = (0..model.bodies.len()).filter(is_root);
         let (Some(first), None) = (roots.next(), roots.next()) else {
             return Err(ReducedError::Unknown("several swimmers".to_owned()));
         };
-        self.add_root(first);
+        let (root, at) = self.add_root(first)?;
         let mut waiting: Vec<usize> = (0..model.bodies.len()).filter(|one| *one != first).collect();
         while !waiting.is_empty() {
             let before = waiting.len();
             let mut later = Vec::new();
             for child in waiting {
                 match self.parent_of(child).filter(|parent| self.parts[*parent].is_some()) {
-                    Some(parent) => self.add_child(parent, child)?,
+                    Some(parent) => self.add_child(Some(parent), child)?,
                     None => later.push(child),
                 }
             }
@@ -145,27 +150,65 @@ impl<'a> Builder<'a> {
             }
             waiting = later;
         }
-        let root = match (&model.bodies[first].motion, geometry) {
-            (Motion::Held, _) => Root::Held,
-            (_, Geometry::Spatial) => Root::Free,
-            _ => Root::Planar,
-        };
-        let gravity = &model.case.fluid.gravity;
-        let gravity = [0, 1, 2].map(|axis| gravity.get(axis).copied().unwrap_or(0.0));
-        let tree = Tree::new(root, self.links)?.in_gravity(gravity);
-        let mut start = tree.rest();
-        let frame = place(&model.bodies[first], &self.solids[first], geometry);
-        let q = frame.rotation;
-        start.root =
-            Placement { position: frame.translation.vector, quaternion: [q.w, q.i, q.j, q.k] };
-        for link in 1..tree.links().len() {
-            if let Some(velocity) = tree.velocity_of(link) {
-                start.coordinates[velocity] = self.coordinates[link];
+        self.made(first, root, at)
+    }
+
+    /// The tree of all links, and what acts on it.
+    fn made(self, first: usize, root: Root, at: Placement<f64>) -> Result<Reduced, ReducedError> {
+        let (model, spec) = (self.model, &self.spec);
+        let parts: Option<Vec<Part>> = self.parts.iter().cloned().collect();
+        let parts = parts.ok_or_else(|| ReducedError::Unknown("bodies apart".to_owned()))?;
+        let mut pulls = Vec::new();
+        for (body, part) in model.bodies.iter().zip(&parts) {
+            let load = Wrench { force: in_space(&body.force), torque: body.torque.0.into() };
+            if load != Wrench::zero() {
+                let (link, inside) = (part.link, part.inside);
+                let (factor, is_in_body) =
+                    (body.load_factor.clone(), !body.load_frame.is_laboratory());
+                pulls.push(Pull { link, inside, load, factor, is_in_body });
             }
         }
-        let parts: Option<Vec<Part>> = self.parts.into_iter().collect();
-        let parts = parts.ok_or_else(|| ReducedError::Unknown("bodies apart".to_owned()))?;
-        Ok(Reduced { tree, parts, told: self.told, start, has_inertia: self.has_inertia })
+        let propellers = spec.thruster.iter().filter_map(|one| {
+            let body = model.body_index(&one.body)?;
+            let frame = parts[body].inside.then(&Pose::at(-self.solids[body].center));
+            Some(Propeller::new(one, parts[body].link, &frame))
+        });
+        let propellers = propellers.collect();
+        let connection = match &spec.connection {
+            Some(table) => {
+                let values = table.values.concat();
+                let (ranges, nodes) = (table.range.clone(), table.nodes.clone());
+                let below = |joint: &crate::case::Joint| {
+                    model.body_index(&joint.child).map_or(0, |child| parts[child].link)
+                };
+                let links = model.joints.iter().map(below).collect();
+                Some((Connection::new(root, ranges, nodes, values)?, links))
+            }
+            None => None,
+        };
+        let gravity: [f64; 3] = in_space(&model.case.fluid.gravity).into();
+        let tree = Tree::new(root, self.links.clone())?.in_gravity(gravity);
+        let mut start = tree.rest();
+        start.root = at;
+        for link in 1..tree.links().len() {
+            if let Some(velocity) = tree.velocity_of(link) {
+                [start.coordinates[velocity], start.velocities[velocity]] = self.coordinates[link];
+            }
+        }
+        self.set_off(&tree, first, &mut start);
+        let (told, has_inertia) = (self.told, self.has_inertia);
+        Ok(Reduced {
+            tree,
+            root,
+            gravity,
+            parts,
+            told,
+            start,
+            has_inertia,
+            pulls,
+            propellers,
+            connection,
+        })
     }
 
     fn parent_of(&self, child: usize) -> Option<usize> {
@@ -173,99 +216,92 @@ impl<'a> Builder<'a> {
         self.model.body_index(&self.model.joints[joint].parent)
     }
 
-    fn add_root(&mut self, body: usize) {
-        let inside = Pose::identity();
+    /// The first body, on what holds or guides it.
+    fn add_root(&mut self, body: usize) -> Result<(Root, Placement<f64>), ReducedError> {
+        let geometry = self.geometry();
+        let one = &self.model.bodies[body];
+        let frame = place(one, &self.solids[body], geometry);
+        if self.model.joint_above(body).is_some() {
+            self.push(Link::root(Symmetric::zero()), Told::Nothing, [0.0; 2]);
+            self.add_child(None, body)?;
+            return Ok((Root::Held, Placement::identity()));
+        }
+        let is_guided = matches!(one.motion, Motion::Imposed(_))
+            || !one.locked.is_empty()
+            || one.spring.is_some();
+        if is_guided && one.motion != Motion::Held {
+            self.guide(body, &frame);
+            let ground = Isometry3::from_parts(frame.translation, UnitQuaternion::identity());
+            return Ok((Root::Held, placement_of(&ground)));
+        }
         let mut link = Link::root(Symmetric::zero());
-        self.fill(body, &inside, &mut link);
-        self.push(body, link, inside, Told::Nothing, 0.0);
+        self.fill(body, &Pose::identity(), &mut link);
+        self.push(link, Told::Nothing, [0.0; 2]);
+        let root = match (&one.motion, geometry) {
+            (Motion::Held, _) => Root::Held,
+            (_, Geometry::Spatial) => Root::Free,
+            _ => Root::Planar,
+        };
+        Ok((root, placement_of(&frame)))
     }
 
-    fn push(&mut self, body: usize, link: Link<f64>, inside: Pose<f64>, told: Told, start: f64) {
-        let density = if self.has_inertia { self.density(body) } else { 1.0 };
-        let solid = &self.solids[body];
-        let (mass, moments) = (density * solid.volume, solid.moments * density);
-        self.parts[body] = Some(Part { link: self.links.len(), inside, mass, moments });
+    pub fn push(&mut self, link: Link<f64>, told: Told, start: [f64; 2]) {
         self.links.push(link);
         self.told.push(told);
         self.coordinates.push(start);
     }
 
-    fn density(&self, body: usize) -> f64 {
-        self.model.bodies[body].density.unwrap_or(self.model.case.fluid.density)
-    }
-
-    /// Masses, weight and loads of a body in its link.
-    fn fill(&self, body: usize, inside: &Pose<f64>, link: &mut Link<f64>) {
-        let solid = &self.solids[body];
-        let density = self.density(body);
+    /// Masses, weight and load of a body in the link that is pushed next.
+    pub fn fill(&mut self, body: usize, inside: &Pose<f64>, link: &mut Link<f64>) {
+        let (model, solid) = (self.model, self.solids[body]);
+        let one = &model.bodies[body];
+        let density = one.density.unwrap_or(model.case.fluid.density);
+        let (mut mass, mut inertia) = (solid.volume, solid.inertia);
         if self.has_inertia {
-            let rigid = Symmetric::rigid(density * solid.volume, solid.moments * density);
+            mass = one.mass.unwrap_or(density * solid.volume);
+            inertia = one.inertia.map_or(solid.inertia * (mass / solid.volume), |own| own.tensor());
+            let rigid = Symmetric { angular: inertia, ..Symmetric::rigid(mass, Vector3::zeros()) };
             link.inertia = rigid.seen_from(inside);
         }
-        let displaced = self.model.case.fluid.density * solid.volume;
+        let buoyancy = self.spec.buoyancy.get(&one.name);
+        let volume = buoyancy.and_then(|own| own.volume).unwrap_or(solid.volume);
+        let center = match buoyancy.filter(|own| !own.center.is_empty()) {
+            Some(own) => in_space(&own.center),
+            None => solid.centroid,
+        };
         link.weight = Some(Weight {
-            mass: density * solid.volume,
+            mass: one.mass.unwrap_or(density * solid.volume),
             mass_center: inside.position,
-            displaced,
-            buoyancy_center: inside.position,
+            displaced: model.case.fluid.density * volume,
+            buoyancy_center: inside.then(&Pose::at(center - solid.center)).position,
         });
-        let pose = Some(inside.then(&Pose::at(solid.middle)));
-        link.loads.push(PlacedLoad { pose, load: self.load(body) });
-    }
-
-    fn load(&self, body: usize) -> Load<f64> {
-        let case = &self.model.case;
-        let (density, viscosity) = (case.fluid.density, case.reference_viscosity());
-        let c = self.spec.coefficients_of(&self.model.bodies[body].name);
-        let c = |k: usize| c.get(k).copied().unwrap_or_default();
-        let axes = self.solids[body].semi_axes;
-        match self.spec.loads {
-            LoadLaw::Links => Load::Strips(Strips {
-                half_length: axes.x,
-                half_width: axes.y,
-                depth: 1.0,
-                density,
-                viscosity,
-                coefficients: StripCoefficients {
-                    added_mass: c(0),
-                    normal_linear: c(1),
-                    normal_quadratic: c(2),
-                    tangential_linear: c(3),
-                    tangential_quadratic: c(4),
-                },
-            }),
-            LoadLaw::Resistive => Load::Resistive(Resistive {
-                length: 2.0 * axes.x,
-                half_width: axes.y,
-                viscosity,
-                along: c(0),
-                across: c(1),
-            }),
-            LoadLaw::Ellipsoid => {
-                let inertia = match self.spec.added_mass {
-                    Some(AddedMassSpec::Mujoco) => AddedMass::Mujoco,
-                    Some(AddedMassSpec::Full) | None => AddedMass::Full,
-                };
-                let coefficients = EllipsoidCoefficients::from_array([0, 1, 2, 3, 4].map(c));
-                let law = Ellipsoid::new(axes.into(), density, viscosity, coefficients, inertia);
-                Load::Ellipsoid(Box::new(law))
-            }
+        let law = Law::new(&model.case, &self.spec, &solid);
+        let place = law.place(&solid);
+        let met = inside.then(&Pose::at(place));
+        let coefficients = self.spec.coefficients_of(&one.name);
+        if let Some(load) = law.load(&coefficients) {
+            link.loads.push(PlacedLoad { pose: Some(met), load });
         }
+        let (link, inside) = (self.links.len(), *inside);
+        self.parts[body] = Some(Part { link, inside, mass, inertia, law, coefficients, place });
     }
 
-    /// Hangs a body on its parent.
-    fn add_child(&mut self, parent: usize, child: usize) -> Result<(), ReducedError> {
-        let (model, geometry) = (self.model, self.model.case.geometry);
-        let Some((above, Some(part))) =
-            model.joint_above(child).map(|joint| (joint, self.parts[parent].clone()))
-        else {
+    /// Hangs a body on its parent, or on the laboratory.
+    fn add_child(&mut self, parent: Option<usize>, child: usize) -> Result<(), ReducedError> {
+        let (model, geometry) = (self.model, self.geometry());
+        let on = parent.map_or(Some((0, Pose::identity())), |one| {
+            self.parts[one].as_ref().map(|part| (part.link, part.inside))
+        });
+        let (Some(above), Some((link, inside))) = (model.joint_above(child), on) else {
             return Err(ReducedError::Unknown("bodies apart".to_owned()));
         };
         let joint = &model.joints[above];
-        let [parent_place, child_place] =
-            [parent, child].map(|one| place(&model.bodies[one], &self.solids[one], geometry));
+        let placed = |one: usize| place(&model.bodies[one], &self.solids[one], geometry);
+        let (parent_place, child_place) =
+            (parent.map_or_else(Isometry3::identity, placed), placed(child));
         let [on_parent, on_child] = joint.ends();
-        let on_parent = on_parent - self.solids[parent].center;
+        let on_parent =
+            on_parent - parent.map_or_else(Vector3::zeros, |one| self.solids[one].center);
         let on_child = on_child - self.solids[child].center;
         let relative = parent_place.rotation.inverse() * child_place.rotation;
         let hung = Hung::of(&joint.kind, geometry == Geometry::Spatial, &relative)?;
@@ -278,76 +314,56 @@ impl<'a> Builder<'a> {
             _ if geometry == Geometry::Spatial => {
                 angle_about(&UnitVector3::new_unchecked(hung.joint.axis), &relative)
             }
-            _ => model.bodies[child].angle - model.bodies[parent].angle,
+            _ => model.bodies[child].angle - parent.map_or(0.0, |one| model.bodies[one].angle),
         };
-        let inside = pose_of(&(hung.rest * Translation3::from(-on_child)));
-        let mut link = Link::new(part.link, hung.joint, Symmetric::zero());
-        link.at = part.inside.then(&Pose::at(on_parent));
-        self.fill(child, &inside, &mut link);
-        self.push(child, link, inside, hung.told, start);
+        let held = pose_of(&(hung.rest * Translation3::from(-on_child)));
+        let mut made = Link::new(link, hung.joint, Symmetric::zero());
+        made.at = inside.then(&Pose::at(on_parent));
+        self.fill(child, &held, &mut made);
+        self.push(made, hung.told, [start, 0.0]);
         Ok(())
     }
-}
 
-/// A joint of a case as one of a tree.
-struct Hung {
-    joint: Joint<f64>,
-    told: Told,
-    /// How the child is turned where the coordinate is zero.
-    rest: UnitQuaternion<f64>,
-}
-
-impl Hung {
-    fn of(
-        kind: &JointKind,
-        is_spatial: bool,
-        relative: &UnitQuaternion<f64>,
-    ) -> Result<Self, ReducedError> {
-        let in_plane = |direction: f64| Vector3::new(direction.cos(), direction.sin(), 0.0);
-        let unit = |axis: Option<[f64; 3]>, else_: Vector3<f64>| {
-            axis.map_or(else_, |axis| Vector3::from(axis).normalize())
+    /// The velocities of what starts with some.
+    fn set_off(&self, tree: &Tree<f64>, first: usize, start: &mut State<f64>) {
+        let starts = |body: &Body| {
+            !body.angular_velocity.is_zero() || body.velocity.iter().any(|part| *part != 0.0)
         };
-        let motor = |stroke: &Option<Stroke>| stroke.clone().map_or(Told::Nothing, Told::Effort);
-        // How the child is turned from its axes at a coordinate of zero
-        let back = |axis: Vector3<f64>, angle: f64| {
-            let turn = Rotation3::from_axis_angle(&UnitVector3::new_unchecked(axis), -angle);
-            if is_spatial {
-                UnitQuaternion::from(turn) * relative
-            } else {
-                UnitQuaternion::identity()
+        if !self.model.bodies.iter().any(starts) {
+            return;
+        }
+        let body = &self.model.bodies[first];
+        let back = start.root.rotation().transpose();
+        let linear = back * in_space(&body.velocity);
+        let angular = back * Vector3::from(body.angular_velocity.0);
+        match tree.n_root() {
+            3 => start.velocities[..3].copy_from_slice(&[linear.x, linear.y, angular.z]),
+            6 => {
+                start.velocities[..3].copy_from_slice(linear.as_slice());
+                start.velocities[3..6].copy_from_slice(angular.as_slice());
             }
-        };
-        let made = |kind, axis: Vector3<f64>| Joint::new(kind, axis.into());
-        Ok(match kind {
-            JointKind::Arm { length, direction, along } => Self {
-                joint: made(Kind::Slider, unit(*along, in_plane(*direction))).driven(Drive::Given),
-                told: Told::Given(length.clone()),
-                rest: *relative,
-            },
-            JointKind::Slider(slider) => {
-                let axis = unit(slider.along, in_plane(slider.direction));
-                let (stiffness, damping, rest) = (slider.stiffness, slider.damping, slider.rest);
-                let joint = Joint { stiffness, damping, rest, ..made(Kind::Slider, axis) };
-                Self { joint, told: motor(&slider.force), rest: *relative }
-            }
-            JointKind::Bent { angle, axis } => {
-                let axis = unit(*axis, Vector3::z());
-                Self {
-                    joint: made(Kind::Hinge, axis).driven(Drive::Given),
-                    told: Told::Given(angle.clone()),
-                    rest: back(axis, angle.at(0.0)[0]),
-                }
-            }
-            JointKind::Hinge(hinge) => {
-                let axis = unit(hinge.axis, Vector3::z());
-                let (stiffness, damping, rest) = (hinge.stiffness, hinge.damping, hinge.rest);
-                let joint = Joint { stiffness, damping, rest, ..made(Kind::Hinge, axis) };
-                let turned = angle_about(&UnitVector3::new_unchecked(axis), relative);
-                Self { joint, told: motor(&hinge.torque), rest: back(axis, turned) }
-            }
-            JointKind::Ball(_) => {
-                return Err(ReducedError::Unknown("joints that turn about all axes".to_owned()));
-            }
-        })
+            _ => {}
+        }
+        // Hinges by the angular velocities of both their bodies, parents first
+        for (child, body) in self.model.bodies.iter().enumerate() {
+            let Some(part) = self.parts[child].as_ref().filter(|_| child != first) else {
+                continue;
+            };
+            let is_free = matches!(self.told[part.link], Told::Nothing | Told::Effort(_));
+            let link = &tree.links()[part.link];
+            let velocity = tree.velocity_of(part.link).filter(|_| is_free);
+            let (Some(velocity), Kind::Hinge) = (velocity, link.joint.kind) else { continue };
+            let axis =
+                tree.poses(start)[link.parent].rotation * (link.at.rotation * link.joint.axis);
+            let parent = tree.twists(start)[link.parent].angular;
+            let longest = axis.iamax();
+            let own = body.angular_velocity.0[longest];
+            start.velocities[velocity] = (own - parent[longest]) / axis[longest];
+        }
     }
+}
+
+/// A joint along an axis of the laboratory, or about one.
+pub(super) fn lone(kind: Kind, axis: Vector3<f64>) -> Joint<f64> {
+    Joint::new(kind, axis.into())
 }

@@ -1,9 +1,10 @@
 //! `Solid`: mass, centre and moments of a body, and the ellipse or ellipsoid its loads are those of.
 
 use alewife_mesh::SecondMoments;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::ReducedError;
+use super::build::in_space;
 use crate::case::{Body, Geometry, Link, ShapeSpec, ShapedLink};
 
 /// What a tree needs of a body, a density.
@@ -11,11 +12,13 @@ use crate::case::{Body, Geometry, Link, ShapeSpec, ShapedLink};
 pub(super) struct Solid {
     /// Volume (m3), in the plane area (m2).
     pub volume: f64,
-    /// Moments of inertia about the centre, a density (m5; m4 planar, about z).
-    pub moments: Vector3<f64>,
-    /// Centre of volume in the body frame (m).
+    /// Inertia about the centroid, a density (m5; m4 planar, about z).
+    pub inertia: Matrix3<f64>,
+    /// Centre of mass in the frame of the body (m).
     pub center: Vector3<f64>,
-    /// Middle of the extent along x, from the centre (m).
+    /// Centroid in the frame of the body (m).
+    pub centroid: Vector3<f64>,
+    /// Middle of the extent along x, from the centre of mass (m).
     pub middle: Vector3<f64>,
     /// Semi-axes (m); in the plane half length and half width.
     pub semi_axes: Vector3<f64>,
@@ -23,6 +26,17 @@ pub(super) struct Solid {
 
 impl Solid {
     pub fn of(body: &Body, geometry: Geometry) -> Result<Self, ReducedError> {
+        let mut solid = Self::of_shape(body, geometry)?;
+        if !body.center_of_mass.is_empty() {
+            let center = in_space(&body.center_of_mass);
+            solid.middle -= center - solid.center;
+            solid.center = center;
+        }
+        Ok(solid)
+    }
+
+    /// Centred at the centroid.
+    fn of_shape(body: &Body, geometry: Geometry) -> Result<Self, ReducedError> {
         let shape = &body.shape;
         if geometry == Geometry::Planar {
             return planar(shape).ok_or_else(|| unknown(body));
@@ -39,8 +53,9 @@ impl Solid {
         let moments = Vector3::repeat(square.sum()) - square;
         Ok(Self {
             volume,
-            moments: moments * (0.2 * volume),
+            inertia: Matrix3::from_diagonal(&(moments * (0.2 * volume))),
             center: Vector3::zeros(),
+            centroid: Vector3::zeros(),
             middle: Vector3::zeros(),
             semi_axes: axes,
         })
@@ -62,8 +77,9 @@ fn planar(shape: &ShapeSpec) -> Option<Solid> {
     let half = 0.5 * (extent.front - extent.back);
     Some(Solid {
         volume: moments.measure,
-        moments: Vector3::new(0.0, 0.0, polar),
+        inertia: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, polar)),
         center,
+        centroid: center,
         middle,
         semi_axes: Vector3::new(half, extent.half_width, extent.half_width),
     })

@@ -3,8 +3,9 @@
 use alewife_reduced::tree::{Pose, State, Twist, Wrench};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-use super::build::{Reduced, Told};
-use crate::case::{BodyQuantity, Component, JointQuantity};
+use super::build::Reduced;
+use super::told::Told;
+use crate::case::{BodyQuantity, Component, JointQuantity, Source, SwimmerQuantity};
 
 /// A quantity.
 #[derive(Debug, Clone, Copy)]
@@ -26,6 +27,28 @@ impl Value {
             (Self::Quaternion(q), Component::Z) => q.k,
             (Self::Quaternion(q), _) => q.w,
         }
+    }
+}
+
+/// Whether a quantity is a load or made of loads.
+pub(super) fn is_load(source: Source) -> bool {
+    match source {
+        Source::Body(_, quantity) => {
+            matches!(quantity, BodyQuantity::Force | BodyQuantity::Torque | BodyQuantity::Power)
+        }
+        Source::Joint(_, quantity) => {
+            matches!(quantity, JointQuantity::Torque | JointQuantity::Force | JointQuantity::Power)
+        }
+        Source::Swimmer(_, quantity) => matches!(
+            quantity,
+            SwimmerQuantity::Force
+                | SwimmerQuantity::Torque
+                | SwimmerQuantity::Power
+                | SwimmerQuantity::ShapePower
+                | SwimmerQuantity::CyclePower
+                | SwimmerQuantity::CycleCostOfTransport
+        ),
+        Source::Probe(..) | Source::Tracer(..) | Source::Flow(_) | Source::Side(..) => true,
     }
 }
 
@@ -116,7 +139,7 @@ pub(super) fn joint(
     let effort = || {
         let own = -joint.stiffness * (place - joint.rest) - joint.damping * rate;
         match &reduced.told[link] {
-            Told::Given(_) => state.efforts[velocity],
+            Told::Given(_) | Told::Way(_) | Told::Rate(..) => state.efforts[velocity],
             Told::Nothing => own,
             Told::Effort(stroke) => own + stroke.at(state.time)[0],
         }

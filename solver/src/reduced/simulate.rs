@@ -1,19 +1,14 @@
 //! The motion of a reduced model of a case, as the series of its quantities.
 
-use alewife_reduced::tree::{Drift, Scheme, State, Stepper};
+use alewife_reduced::tree::State;
 
 use super::ReducedError;
 use super::build::Reduced;
-use super::measure::{Moving, Value, bodies, joint};
+use super::measure::{Moving, Value, bodies, is_load, joint};
+use super::mover::Mover;
 use super::swimmer::Swimming;
 use crate::case::{Column, Model, Source, TimeSettings, columns};
 use crate::run::Series;
-
-/// What moves the tree: steps with inertia, or the balance of forces without.
-enum Mover {
-    Steps(Box<Stepper<f64>>),
-    Drift(Box<Drift<f64>>),
-}
 
 /// Rows of all quantities that need no flow.
 struct Rows {
@@ -28,9 +23,11 @@ struct Rows {
 impl Rows {
     fn new(model: &Model, reduced: &Reduced) -> Self {
         let joined = (0..model.bodies.len()).filter(|body| model.joint_above(*body).is_some());
+        let has_loads = reduced.connection.is_none();
+        let known = |column: &Column| has_loads || !is_load(column.source);
         Self {
             below: joined.map(|body| reduced.parts[body].link).collect(),
-            columns: columns(model),
+            columns: columns(model).into_iter().filter(known).collect(),
             swimmers: model.swimmers.iter().map(Swimming::new).collect(),
             before: Vec::new(),
             series: Series::default(),
@@ -49,7 +46,7 @@ impl Rows {
                     Some(Value::Scalar(joint(reduced, state, self.below[nth], quantity)))
                 }
                 Source::Swimmer(nth, quantity) => self.swimmers[nth].value(quantity),
-                Source::Probe(..) | Source::Flow(_) | Source::Side(..) => None,
+                Source::Probe(..) | Source::Tracer(..) | Source::Flow(_) | Source::Side(..) => None,
             };
             value.map(|value| value.component(column.component))
         };
@@ -78,14 +75,7 @@ pub fn simulate(model: &Model) -> Result<Series, ReducedError> {
     };
     let reduced = Reduced::new(model)?;
     let mut state = reduced.start.clone();
-    let command = |time: f64, link: usize| reduced.command(time, link);
-    let mut mover = if reduced.has_inertia {
-        Mover::Steps(Box::new(Stepper::new(&reduced.tree, Scheme::Midpoint)))
-    } else {
-        let mut drift = Drift::new(reduced.tree.clone())?;
-        drift.twist(&mut state, 0.0, &command)?;
-        Mover::Drift(Box::new(drift))
-    };
+    let mut mover = Mover::new(&reduced, reduced.tree.clone(), &mut state)?;
     let mut rows = Rows::new(model, &reduced);
     rows.add(&reduced, &state, time.step);
     let n_steps = time.n_steps();
@@ -93,11 +83,7 @@ pub fn simulate(model: &Model) -> Result<Series, ReducedError> {
         // The last one may be shorter
         let end = if number == n_steps { time.end } else { time.step * number as f64 };
         let step = end - state.time;
-        match &mut mover {
-            Mover::Steps(stepper) => stepper.step(&reduced.tree, &mut state, step, &command)?,
-            Mover::Drift(drift) => drift.step(&mut state, step, &command)?,
-        }
-        state.time = end;
+        mover.step(&reduced, &mut state, end)?;
         rows.add(&reduced, &state, step);
     }
     Ok(rows.series)

@@ -164,10 +164,10 @@ impl Swimming {
     }
 }
 
-/// Moments of inertia of a body in axes of the world.
+/// Inertia of a body in axes of the world.
 fn turned_inertia(part: &Part, body: &Moving) -> Matrix3<f64> {
     let turn = body.pose.rotation;
-    turn * Matrix3::from_diagonal(&part.moments) * turn.transpose()
+    turn * part.inertia * turn.transpose()
 }
 
 /// The angular velocity of a momentum; about z alone in the plane, where there are no other moments.

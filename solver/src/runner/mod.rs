@@ -19,6 +19,7 @@ pub use failure::{Exit, Failure, listing};
 pub use live::DEFAULT_ADDRESS;
 pub use pipeline::{run, write_comparisons};
 pub use plan::{Finished, Outcome, RunPlan, Stopped};
+pub use replay::recording;
 pub use session::{Checked, SessionPlan, checked, session, write_state};
 pub use signal::{SignalWatch, end_aborted_with, outlive_file_size_limit};
 pub use simulate::{RunInto, simulate, simulate_afresh};

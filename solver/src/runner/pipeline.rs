@@ -41,7 +41,7 @@ where
     let RunPlan { file, out, .. } = plan;
     let (name, started) = (file.full_name(), Instant::now());
     // Before anything of a directory is touched
-    let recording = recording(plan)?;
+    let recording = recording(&plan.file, plan.replay.as_deref())?;
     // From here on, so that no signal ends the process without a word, and no other process writes to what is read
     let watch = SignalWatch::start()?;
     let limit = WallLimit::new(plan.max_walltime);

@@ -1,17 +1,18 @@
 //! What a run asks for that repeats a session, and cases that wait for commands nobody gives.
 
+use std::path::Path;
+
 use super::failure::{Exit, Failure};
-use super::plan::RunPlan;
 use crate::case::{CaseFile, Diagnostic, Recording, Severity};
 
-/// What is recorded in the file that a plan names, if it does.
+/// What is recorded in the file that a run of a case repeats, if it does.
 ///
 /// # Errors
 /// When there is none and the case waits for commands, or when it cannot be read or is of another case.
-pub fn recording(plan: &RunPlan) -> Result<Option<Recording>, Failure> {
-    let commands = &plan.file.model.commands;
-    let Some(path) = &plan.replay else {
-        return if commands.is_empty() { Ok(None) } else { Err(nobody_commands(&plan.file)) };
+pub fn recording(file: &CaseFile, replay: Option<&Path>) -> Result<Option<Recording>, Failure> {
+    let commands = &file.model.commands;
+    let Some(path) = replay else {
+        return if commands.is_empty() { Ok(None) } else { Err(nobody_commands(file)) };
     };
     let shown = path.display();
     let text = std::fs::read_to_string(path)

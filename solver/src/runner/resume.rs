@@ -23,6 +23,7 @@ pub fn read_resumed<const D: usize>(
     if let Some(history) = history.as_mut().filter(|_| !is_in_place) {
         // The field files stay where they are
         history.frames.clear();
+        history.tracer_frames.clear();
     }
     Ok(Resumed { state, history, is_in_place, from: path.clone() })
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::failure::{Exit, Failure, listing};
 use super::resume::read_resumed;
 use super::simulate::Resumed;
-use crate::case::{Case, CaseFile, Diagnostic, Severity, check};
+use crate::case::{Case, CaseFile, Diagnostic, Severity, check, check_flow};
 use crate::observer::{
     self, Earlier, Point, RunDirectory, Shown, Start, WriteTimes, write_state_file,
 };
@@ -60,6 +60,10 @@ where
     Dimension<D>: Solve<D>,
 {
     let SessionPlan { file, out, resume, .. } = plan;
+    let missing = check_flow(file);
+    if !missing.is_empty() {
+        return Err(Failure { exit: Exit::BadCase, message: listing(&missing) });
+    }
     let place = out.as_deref().unwrap_or(Path::new(""));
     let resumed: Option<Resumed<D>> =
         resume.as_deref().map(|path| read_resumed(path, file.case(), place)).transpose()?;

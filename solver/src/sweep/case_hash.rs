@@ -8,8 +8,8 @@ use serde_json::Value;
 use crate::case::{Case, CaseError, Sweep, collect_keys};
 
 /// Tables and keys of a case at its top that change nothing of what is computed.
-pub(super) const IRRELEVANT: [&str; 6] =
-    ["title", "description", "output", "quick", "reference", "variant"];
+pub(super) const IRRELEVANT: [&str; 7] =
+    ["title", "description", "optimisation", "output", "quick", "reference", "variant"];
 
 /// All keys of a case that decide what is computed, by their paths.
 pub(super) fn keys_of(case: &Value) -> BTreeMap<String, String> {

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::directory::SweepDirectory;
 use super::point_state::{PointState, Stand, stand};
-use crate::case::{Case, CaseError, SweepQuantity};
+use crate::case::{Case, CaseError, SweepQuantity, suggestion};
 use crate::observer::{COMPARISON_FILE, read_outcome};
 use crate::run::RunSummary;
 use crate::validation::measured_value;
@@ -93,6 +93,31 @@ pub fn collect(directory: &SweepDirectory, quantities: &[SweepQuantity]) -> io::
         writer.write_record(&cells)?;
     }
     writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
+}
+
+/// What no finished point has of the quantities asked for, with the names there are: a misspelt one.
+///
+/// # Errors
+/// When files of finished points cannot be read.
+pub fn unknown_quantity(
+    directory: &SweepDirectory,
+    quantities: &[SweepQuantity],
+) -> io::Result<Option<String>> {
+    let mut unknown: Vec<&str> =
+        quantities.iter().map(|wanted| wanted.statistic.quantity.as_str()).collect();
+    let mut known = Vec::new();
+    for index in 0..directory.n_points() {
+        if unknown.is_empty() {
+            return Ok(None);
+        }
+        if stand(directory, index).state == PointState::Finished {
+            known = read_outcome(&directory.point(index))?.series.names;
+            unknown.retain(|name| !known.iter().any(|one| one == name));
+        }
+    }
+    // Before a point is finished all may come
+    let first = unknown.first().filter(|_| !known.is_empty());
+    Ok(first.map(|name| format!("no point has a quantity `{name}`; {}", suggestion(name, &known))))
 }
 
 /// A value of a swept key: texts without quotes.

@@ -20,7 +20,7 @@ mod point_state;
 mod script;
 
 pub use children::{Ended, Ending, Launch, run_children};
-pub use collect::collect;
+pub use collect::{collect, unknown_quantity};
 pub use directory::{PLAN_FILE, SweepDirectory, SweepDirectoryError, TABLE_FILE};
 pub use failure::PointFailure;
 pub use plan::Plan;

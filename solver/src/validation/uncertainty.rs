@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::comparison::Comparison;
-use crate::case::{Case, Scheme, TimeSettings};
+use crate::case::{Case, DomainSpec, Scheme, TimeSettings};
 
 /// Factor of safety where two meshes are compared and the order is not observed but taken for granted.
 const SAFETY: f64 = 3.0;
@@ -53,7 +53,8 @@ pub struct RunSize {
 #[must_use]
 pub fn no_companion(case: &Case) -> Option<&'static str> {
     // The surface of a file has errors of its own, and each mesh is cut out of it
-    case.given_mesh().map(|_| "a mesh file gives its sides, which a companion would share")
+    let is_given = matches!(case.domain, DomainSpec::Mesh(_));
+    is_given.then_some("a mesh file gives its sides, which a companion would share")
 }
 
 /// Settings of the companion of a case, as on the command line.

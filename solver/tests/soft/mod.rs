@@ -87,6 +87,8 @@ fn a_soft_case_is_checked_and_run_and_what_is_written_runs_with_the_same_bits() 
             fs::read(at.join("s").join(file)).unwrap()
         );
     }
+    let said = done(at, &["validate", "bar.toml"]);
+    assert!(said.contains("time") && said.contains("1 of 1 values"), "{said}");
     let again = refused(at, &["run", "bar.toml", "--fidelity", "soft", "--out", "r"], 2);
     assert!(again.contains("--overwrite"), "{again}");
     done(at, &["run", "bar.toml", "--fidelity", "soft", "--out", "r", "--overwrite"]);

@@ -58,7 +58,7 @@ impl ClosedSpline {
         let directions = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(Point::<2>::from);
         let mut cuts = [0.0; 5];
         for (k, direction) in directions.iter().enumerate() {
-            let s = extreme(&spline, &samples, *direction);
+            let s = extreme(&spline, (&samples, &places), *direction);
             // A simple counter-clockwise loop meets its extremes in this order
             cuts[k] = if k > 0 && s < cuts[0] { s + spline.period() } else { s };
         }
@@ -139,16 +139,17 @@ fn foot_on_spline(spline: &Spline, mut low: f64, mut high: f64, start: f64, x: P
     s
 }
 
-/// Parameter of the point of the spline farthest in a direction.
-fn extreme(spline: &Spline, samples: &[f64], direction: Point<2>) -> f64 {
+/// Parameter of the point of the spline farthest in a direction, near one of these parameters of points.
+fn extreme(spline: &Spline, (samples, places): (&[f64], &[Point<2>]), direction: Point<2>) -> f64 {
     let n = samples.len();
-    let height = |s: f64| spline.evaluate(s)[0].dot(&direction);
-    let mut top = 0;
-    for i in 1..n {
-        if height(samples[i]) > height(samples[top]) {
-            top = i;
+    let mut top = (0, f64::NEG_INFINITY);
+    for (i, place) in places.iter().enumerate() {
+        let height = place.dot(&direction);
+        if height > top.1 {
+            top = (i, height);
         }
     }
+    let (top, _) = top;
     let before = samples[(top + n - 1) % n];
     let mut low = if before < samples[top] { before } else { before - spline.period() };
     let after = samples[(top + 1) % n];

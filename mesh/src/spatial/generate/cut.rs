@@ -19,19 +19,20 @@ const FAR: f64 = 0.6;
 const KEPT_QUALITY: f64 = 0.08;
 
 /// Gaps below this are none (m, over the size of the mesh).
-const ON_SURFACE: f64 = 1e-12;
+pub(super) const ON_SURFACE: f64 = 1e-12;
 
 /// Steps of the search for the place where a surface cuts an edge.
 const MOST_STEPS: usize = 40;
 
 /// A cut that is being made.
-struct Cut<'i, 'a> {
-    improver: &'i mut Improver<'a>,
-    index: u16,
-    /// Gap of each vertex to the surface (m), zero where the vertex counts as on it.
-    gaps: Vec<f64>,
+pub(super) struct Cut<'i, 'a> {
+    pub(super) improver: &'i mut Improver<'a>,
+    pub(super) index: u16,
+    /// Gap of each vertex to the surface (m), zero where the vertex counts as on it; not a number where
+    /// the surface does not matter.
+    pub(super) gaps: Vec<f64>,
     /// Gaps below this are none (m).
-    tolerance: f64,
+    pub(super) tolerance: f64,
 }
 
 /// A vertex that may be moved, and the part of an edge it moves along.
@@ -159,7 +160,7 @@ impl Cut<'_, '_> {
     }
 
     /// Moves the vertices near the surface onto it, where their cells stay good.
-    fn move_vertices(&mut self) {
+    pub(super) fn move_vertices(&mut self) {
         let mut neighbours = Vec::new();
         for Candidate { vertex, .. } in self.candidates() {
             if interrupt::is_requested() {
@@ -180,7 +181,10 @@ impl Cut<'_, '_> {
             }
             let point = self.improver.project(surfaces, self.improver.mesh.point(vertex));
             let is_on = self.gap_at(point).abs() <= 1e3 * self.tolerance;
-            if !is_on || (gap < 0.0 && self.would_bridge(point, &neighbours)) {
+            if !is_on || self.improver.crosses_earlier(vertex, point, self.index) {
+                continue;
+            }
+            if gap < 0.0 && self.would_bridge(point, &neighbours) {
                 continue;
             }
             let here = self.improver.mesh.point(vertex);
@@ -205,7 +209,7 @@ impl Cut<'_, '_> {
     }
 
     /// Splits all edges that go through the surface where they do.
-    fn split_edges(&mut self) {
+    pub(super) fn split_edges(&mut self) {
         let mut shell = Vec::new();
         for ends in self.cut_edges() {
             if interrupt::is_requested() {
@@ -215,7 +219,7 @@ impl Cut<'_, '_> {
             let part = self.crossing(ends).clamp(1e-3, 1.0 - 1e-3);
             let [a, b] = self.improver.mesh.corners(ends);
             let straight = a + (b - a) * part;
-            let edge = self.improver.mesh.edge_surfaces(ends[0], ends[1]);
+            let edge = self.improver.surfaces_along(ends);
             let surfaces = edge.with(self.index).unwrap_or(edge);
             // On a ridge the point is that of all surfaces, or of the edge where that is too far
             let on_ridge = (!edge.is_empty()).then(|| self.improver.project(surfaces, straight));

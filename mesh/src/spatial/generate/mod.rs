@@ -5,6 +5,7 @@
 
 mod bisection;
 mod cut;
+mod cut_sheets;
 mod given;
 mod improve;
 mod lattice;
@@ -16,6 +17,7 @@ mod tetrahedra;
 use improve::{Improver, Verdict};
 
 use super::domain::Domain;
+use super::region::Region;
 use super::shape::Body;
 use super::size_field::SizeField;
 use crate::{Mesh, MeshError, Sizing, interrupt};
@@ -60,6 +62,40 @@ pub fn generate(
     let Candidate { improver, verdict } = best_candidate(&sizes)?;
     verdict.check()?;
     Ok(improver.quadratic(sizing.curved))
+}
+
+/// Part by which the volume of a mesh may differ from that of its region, plus that of its sizes: sharp edges
+/// that are missed cost more.
+const MISSED: f64 = 0.02;
+
+/// Mesh of the inside of a surface, whose sharp edges are edges of it.
+///
+/// Boundaries are the sides of the region in their order.
+///
+/// # Errors
+/// What [`Sizing::check`] refuses, [`MeshError::TooManyCells`], and [`MeshError::PoorTetrahedra`] where no
+/// good cells are found, or a side has none.
+pub fn generate_inside(region: &Region, sizing: &Sizing<3>) -> Result<Mesh<3>, MeshError> {
+    let names: Vec<&str> = region.sides().iter().map(String::as_str).collect();
+    sizing.check(&names)?;
+    let sizes = SizeField::of(region.geometry(sizing), sizing);
+    let Candidate { improver, verdict } = best_candidate(&sizes)?;
+    verdict.check()?;
+    let mesh = improver.quadratic(sizing.curved);
+    let wanted = region.volume();
+    let missed = (mesh.measure() - wanted).abs() / wanted;
+    let at = region.triangles().corners(0)[0].into();
+    if missed > MISSED {
+        let reason = "the mesh leaves out or adds a part of the volume";
+        return Err(MeshError::PoorTetrahedra { reason, value: missed, at });
+    }
+    for side in 0..names.len() {
+        if !mesh.facets.iter().any(|facet| facet.boundary.index() == side) {
+            let reason = "a side is smaller than the cells at it, its number";
+            return Err(MeshError::PoorTetrahedra { reason, value: side as f64, at });
+        }
+    }
+    Ok(mesh)
 }
 
 /// The first mesh that is good, or the best one of all.
@@ -110,6 +146,10 @@ fn attempt(sizes: &SizeField, shift: f64, part: f64) -> Result<Improver<'_>, Mes
     let shorter = if sizes.geometry().imported.is_some() { shift - SHIFTS[0] } else { 0.0 };
     interrupt::check()?;
     improver.refine_lattice(part * (1.0 - shorter))?;
+    if sizes.geometry().enclosure.is_some() {
+        improver.cut_by_sheets()?;
+        first = sizes.geometry().surfaces.len();
+    }
     for index in first..sizes.geometry().surfaces.len() {
         let index = u16::try_from(index).map_err(|_| too_many_surfaces(sizes))?;
         improver.cut(index)?;

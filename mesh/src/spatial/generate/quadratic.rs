@@ -69,8 +69,13 @@ impl Improver<'_> {
         cells
     }
 
-    fn boundary_of(&self, tag: u16) -> BoundaryId {
-        self.geometry.surfaces[usize::from(surface_of(tag))].boundary
+    /// The boundary of a face: of its surface, or of the part of it that the face is nearest to.
+    fn boundary_of(&self, face: Face, tag: u16) -> BoundaryId {
+        let surface = &self.geometry.surfaces[usize::from(surface_of(tag))];
+        surface.sheet().map_or(surface.boundary, |sheet| {
+            let corners = self.mesh.corners(self.mesh.face_vertices(face));
+            sheet.nearest(corners.iter().sum::<Point<3>>() / 3.0).side
+        })
     }
 }
 
@@ -150,7 +155,7 @@ impl Quadratic<'_, '_> {
                     BoundaryId::new(self.opened.side(improver, Face { cell, opposite })?)
                 }
                 INNER => return None,
-                tag => improver.boundary_of(tag),
+                tag => improver.boundary_of(Face { cell, opposite }, tag),
             };
             Some(Facet { cell: number, side, boundary })
         })

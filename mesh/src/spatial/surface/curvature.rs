@@ -14,6 +14,7 @@ impl SmoothSurface {
     pub fn radius_of_curvature(&self, on: Point<3>) -> f64 {
         match &self.form {
             Form::Plane | Form::Facets(_) => f64::INFINITY,
+            Form::Sheet(sheet) => sheet.nearest(on).radius,
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => *radius,
             Form::Tube(tube) => tube.radius(),
             Form::Ellipsoid(ellipsoid) => ellipsoid.radius_of_curvature(self.to_local(on)),
@@ -38,7 +39,7 @@ impl SmoothSurface {
     #[must_use]
     pub fn inner_radius(&self) -> f64 {
         match &self.form {
-            Form::Plane | Form::Facets(_) => f64::INFINITY,
+            Form::Plane | Form::Facets(_) | Form::Sheet(_) => f64::INFINITY,
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => *radius,
             Form::Tube(tube) => tube.radius(),
             Form::Ellipsoid(ellipsoid) => ellipsoid.inner_radius(),
@@ -61,7 +62,8 @@ impl SmoothSurface {
             | Form::Revolved(_)
             | Form::Slender(_)
             | Form::Triangulated(_)
-            | Form::Facets(_) => false,
+            | Form::Facets(_)
+            | Form::Sheet(_) => false,
         }
     }
 

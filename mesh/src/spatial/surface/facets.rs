@@ -33,6 +33,15 @@ pub(super) struct OnTriangle {
     pub triangle: usize,
 }
 
+/// The nearest point of a surface that is continued beyond its rim.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Continued {
+    pub foot: Foot,
+    /// Distance to the surface as far as it reaches (m).
+    pub distance: f64,
+    pub triangle: usize,
+}
+
 /// The nearest point of all triangles.
 #[derive(Debug, Clone, Copy)]
 struct Nearest {
@@ -62,7 +71,7 @@ impl Facets {
 
     /// These triangles.
     #[must_use]
-    pub(super) fn new(patches: Vec<Patch>) -> Self {
+    pub(in crate::spatial) fn new(patches: Vec<Patch>) -> Self {
         let boxes: Vec<Bounds<3>> = patches.iter().map(Patch::bounds).collect();
         let is_curved = patches.iter().any(Patch::is_curved);
         Self { tree: BoxTree::new(&boxes), patches, is_curved }
@@ -134,6 +143,18 @@ impl Facets {
             (point - on.point) / gap
         };
         Foot { point: on.point, normal, gap }
+    }
+
+    /// The nearest point within a distance (m), the surface continued beyond its rim by its tangent planes there.
+    pub(super) fn continued(&self, point: Point<3>, within: f64) -> Option<Continued> {
+        let nearest = self.nearest(point, within)?;
+        let Nearest { patch, on, distance, height } = nearest;
+        let mut foot = self.foot_of(point, &nearest);
+        if self.patches[patch].is_on_rim(on.place) {
+            let normal = self.patches[patch].inward(on.place);
+            foot = Foot { point: point - normal * height, normal, gap: height };
+        }
+        Some(Continued { foot, distance, triangle: patch })
     }
 
     /// The gap of [`Self::foot`] (m) where it is below a bound.

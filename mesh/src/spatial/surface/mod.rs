@@ -6,6 +6,7 @@ mod facets;
 mod patch;
 mod revolved;
 mod ring;
+mod sheet;
 mod sizes;
 mod slender;
 mod triangulated;
@@ -13,11 +14,12 @@ mod tube;
 
 pub use ellipsoid::Ellipsoid;
 pub use facets::Facets;
-pub use patch::is_bent;
+pub use patch::{Patch, is_bent};
 pub use revolved::Revolved;
+pub use sheet::{Sheet, SheetTriangle};
 pub use sizes::{Bend, SizedGap};
 pub use slender::Slender;
-pub use triangulated::Triangulated;
+pub use triangulated::{Triangulated, enclosed};
 pub use tube::Tube;
 
 use std::sync::Arc;
@@ -54,6 +56,8 @@ pub enum Form {
     Triangulated(Arc<Triangulated>),
     /// A side of a given mesh, in the frame of the mesh.
     Facets(Arc<Facets>),
+    /// A smooth part of a surface of triangles, continued beyond its rim.
+    Sheet(Arc<Sheet>),
 }
 
 /// The point of a smooth surface nearest to another point.
@@ -145,12 +149,25 @@ impl SmoothSurface {
         Self::new(Form::Facets(facets), &Isometry3::identity(), false)
     }
 
+    /// A smooth part of a surface of triangles.
+    #[must_use]
+    pub fn of_sheet(sheet: Arc<Sheet>) -> Self {
+        Self::new(Form::Sheet(sheet), &Isometry3::identity(), false)
+    }
+
+    /// The smooth part of a surface of triangles that it is.
+    #[must_use]
+    pub fn sheet(&self) -> Option<&Sheet> {
+        if let Form::Sheet(sheet) = &self.form { Some(sheet) } else { None }
+    }
+
     /// Whether edges on it are straight.
     #[must_use]
     pub fn is_flat(&self) -> bool {
         match &self.form {
             Form::Plane => true,
             Form::Facets(facets) => !facets.is_curved(),
+            Form::Sheet(sheet) => sheet.is_flat(),
             _ => false,
         }
     }
@@ -177,7 +194,7 @@ impl SmoothSurface {
     #[must_use]
     pub fn reach(&self) -> f64 {
         match &self.form {
-            Form::Plane | Form::Cylinder(_) | Form::Facets(_) => f64::INFINITY,
+            Form::Plane | Form::Cylinder(_) | Form::Facets(_) | Form::Sheet(_) => f64::INFINITY,
             Form::Sphere(radius) => *radius,
             Form::Capsule { radius, half_length } => radius + half_length,
             Form::Ellipsoid(ellipsoid) => ellipsoid.reach(),
@@ -244,7 +261,8 @@ impl SmoothSurface {
             | Form::Revolved(_)
             | Form::Slender(_)
             | Form::Triangulated(_)
-            | Form::Facets(_) => off,
+            | Form::Facets(_)
+            | Form::Sheet(_) => off,
         }
     }
 
@@ -261,7 +279,8 @@ impl SmoothSurface {
             | Form::Revolved(_)
             | Form::Slender(_)
             | Form::Triangulated(_)
-            | Form::Facets(_) => return self.foot(point).gap,
+            | Form::Facets(_)
+            | Form::Sheet(_) => return self.foot(point).gap,
         };
         if self.is_hollow { -gap } else { gap }
     }
@@ -284,6 +303,7 @@ impl SmoothSurface {
             Form::Slender(slender) => self.to_world(&slender.foot(self.to_local(point))),
             Form::Triangulated(triangles) => self.to_world(&triangles.foot(self.to_local(point))),
             Form::Facets(facets) => facets.foot(point),
+            Form::Sheet(sheet) => sheet.foot(point),
         };
         if self.is_hollow {
             foot.normal = -foot.normal;

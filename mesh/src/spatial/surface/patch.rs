@@ -28,6 +28,8 @@ pub struct Patch {
     bulge: f64,
     /// Whether each edge belongs to no other triangle of the surface.
     is_rim: [bool; 3],
+    /// Whether each corner is where the surface ends, be its edges or not.
+    is_rim_corner: [bool; 3],
 }
 
 /// The area of the reference coordinates at a place of a triangle.
@@ -64,7 +66,19 @@ impl Patch {
         let off = |i: usize| (nodes[i] - (corners[i] + corners[(i + 1) % 3]) * 0.5).norm();
         let bent = |i: usize| is_bent(&corners[i], &corners[(i + 1) % 3], &nodes[i]);
         let bulge = if (0..3).any(bent) { (0..3).map(off).fold(0.0, f64::max) } else { 0.0 };
-        Self { corners, nodes, coefficients, bulge: BULGE * bulge, is_rim }
+        Self {
+            corners,
+            nodes,
+            coefficients,
+            bulge: BULGE * bulge,
+            is_rim,
+            is_rim_corner: [false; 3],
+        }
+    }
+
+    /// The same with edges and corners at which the surface ends.
+    pub fn with_rim(self, is_rim: [bool; 3], is_rim_corner: [bool; 3]) -> Self {
+        Self { is_rim, is_rim_corner, ..self }
     }
 
     /// Whether it is not flat with straight edges.
@@ -149,10 +163,12 @@ impl Patch {
         u > ON_EDGE && v > ON_EDGE && 1.0 - u - v > ON_EDGE
     }
 
-    /// Whether a place is on an edge that no other triangle has.
+    /// Whether a place is on an edge that no other triangle has, or at a corner where the surface ends.
     pub fn is_on_rim(&self, [u, v]: [f64; 2]) -> bool {
         let off = [v, 1.0 - u - v, u];
+        let at = [1.0 - u - v, u, v];
         off.iter().zip(self.is_rim).any(|(off, is_rim)| is_rim && *off <= ON_EDGE)
+            || at.iter().zip(self.is_rim_corner).any(|(at, is_rim)| is_rim && *at >= 1.0 - ON_EDGE)
     }
 
     /// The nearest point to another one; `None` where that is known to be farther than a distance (m).

@@ -37,6 +37,9 @@ impl SmoothSurface {
             let parts = [self.turn, EDGES_OF_RADIUS_INSIDE];
             return self.size.min(slender.smaller_radius(self.to_local(on), parts));
         }
+        if let Form::Sheet(sheet) = &self.form {
+            return self.size.min(sheet.nearest(on).size);
+        }
         if let Form::Triangulated(triangles) = &self.form {
             return self.size_by(triangles.bent_foot(self.to_local(on)).bend);
         }
@@ -53,9 +56,11 @@ impl SmoothSurface {
     #[must_use]
     pub fn uniform_size(&self) -> Option<f64> {
         match &self.form {
-            Form::Ellipsoid(_) | Form::Revolved(_) | Form::Slender(_) | Form::Triangulated(_) => {
-                None
-            }
+            Form::Ellipsoid(_)
+            | Form::Revolved(_)
+            | Form::Slender(_)
+            | Form::Triangulated(_)
+            | Form::Sheet(_) => None,
             _ => Some(self.size_at(self.origin)),
         }
     }
@@ -73,6 +78,10 @@ impl SmoothSurface {
             let BentFoot { foot, bend } = triangles.bent_foot(self.to_local(point));
             let gap = if self.is_hollow { -foot.gap } else { foot.gap };
             return SizedGap { gap, size: self.size_by(bend) };
+        }
+        if let Form::Sheet(sheet) = &self.form {
+            let near = sheet.near(point);
+            return SizedGap { gap: near.distance, size: self.size.min(near.triangle.size) };
         }
         if let Some(size) = self.uniform_size() {
             return SizedGap { gap: self.gap(point), size };
@@ -127,8 +136,12 @@ impl SmoothSurface {
         });
         let far = 2.0 * self.reach();
         let n = if matches!(self.form, Form::Triangulated(_)) { TRIANGLES } else { SAMPLES };
-        let on = axes.map(|to| self.foot(self.origin + to * far).point).chain(self.places(n));
-        let mut all: Vec<Bend> = on.map(|at| Bend { at, size: self.size_at(at) }).collect();
+        let mut all: Vec<Bend> = if let Form::Sheet(sheet) = &self.form {
+            sheet.triangles().map(|(at, own)| Bend { at, size: own.size }).collect()
+        } else {
+            let on = axes.map(|to| self.foot(self.origin + to * far).point).chain(self.places(n));
+            on.map(|at| Bend { at, size: self.size_at(at) }).collect()
+        };
         all.retain(|bend| bend.size < self.size);
         all.sort_by(|a, b| a.size.total_cmp(&b.size));
         let mut bends: Vec<Bend> = Vec::new();

@@ -53,9 +53,11 @@ pub(super) struct BentFoot {
 }
 
 /// What quadratic triangles enclose, and their area (m2).
-struct Enclosed {
-    moments: SurfaceMoments,
-    area: f64,
+pub struct Enclosed {
+    /// Volume, centroid, inertia.
+    pub moments: SurfaceMoments,
+    /// Area (m2).
+    pub area: f64,
 }
 
 /// A ball that holds nothing of a surface.
@@ -222,8 +224,8 @@ fn patches(mesh: &TriangleMesh) -> Vec<Patch> {
     }
 }
 
-/// What quadratic triangles enclose.
-fn enclosed(patches: &[Patch]) -> Enclosed {
+/// What quadratic triangles enclose that have their fluid outside.
+pub fn enclosed(patches: &[Patch]) -> Enclosed {
     let rule = GaussRule::new(RULE);
     let near = patches.first().and_then(|patch| patch.points().next()).unwrap_or_default();
     let (mut volume, mut first, mut second) = (0.0, Point::<3>::zeros(), Matrix3::zeros());

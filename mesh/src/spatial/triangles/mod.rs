@@ -5,6 +5,7 @@ mod edges;
 mod fault;
 mod lines;
 mod measure;
+mod named;
 mod obj;
 mod ply;
 mod read;
@@ -14,9 +15,10 @@ mod stored;
 
 pub use fault::SurfaceFault;
 pub use measure::{SurfaceMeasures, SurfaceMoments};
+pub use named::{NamedTriangles, TriangleGroup};
 pub use repair::{Repaired, Repairs};
 
-pub(super) use edges::edges_of;
+pub(super) use edges::{Groups, edges_of};
 use fault::at_most;
 
 use crate::{Bounds, Point};

@@ -1,15 +1,16 @@
-//! OBJ: lines `v x y z` and `f 1 2 3`; all else is passed over.
+//! OBJ: lines `v x y z` and `f 1 2 3`, groups by `g` and `o`; all else is passed over.
 
 use super::lines::{at_line, fan};
-use super::{SurfaceFault, TriangleMesh, at_most};
+use super::{NamedTriangles, SurfaceFault, at_most};
 use crate::Point;
 use crate::number::index_u32;
 
 /// Reads a text.
-pub fn read(text: &str) -> Result<TriangleMesh, SurfaceFault> {
-    let mut mesh = TriangleMesh::default();
+pub fn read(text: &str) -> Result<NamedTriangles, SurfaceFault> {
+    let mut named = NamedTriangles::default();
     for (nth, line) in text.lines().enumerate() {
         let mut words = line.split_whitespace();
+        let mesh = &mut named.mesh;
         match words.next() {
             Some("v") => {
                 let numbers: Vec<f64> = words.map_while(|word| word.parse().ok()).collect();
@@ -29,10 +30,12 @@ pub fn read(text: &str) -> Result<TriangleMesh, SurfaceFault> {
                 mesh.triangles.extend(fan(&polygon));
                 at_most(mesh.triangles.len())?;
             }
+            Some("g" | "o") => named.begin(words.next().unwrap_or_default()),
             _ => {}
         }
     }
-    Ok(mesh)
+    named.close();
+    Ok(named)
 }
 
 /// The index of a vertex by its number from 1 on, or from the last one, -1, back; `7/1/3` is vertex 7.

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{SurfaceFault, TriangleMesh, at_most, obj, ply, stl};
+use super::{NamedTriangles, SurfaceFault, TriangleMesh, at_most, obj, ply, stl};
 use crate::Point;
 use crate::number::index_u32;
 
@@ -14,10 +14,20 @@ impl TriangleMesh {
     /// [`SurfaceFault::Kind`], [`SurfaceFault::File`] with the line or byte, [`SurfaceFault::Count`],
     /// [`SurfaceFault::NotFinite`].
     pub fn read(bytes: &[u8]) -> Result<Self, SurfaceFault> {
-        let mesh = if bytes.starts_with(b"ply") {
-            ply::read(bytes)?
+        NamedTriangles::read(bytes).map(|named| named.mesh)
+    }
+}
+
+impl NamedTriangles {
+    /// The same with the groups that the file names.
+    ///
+    /// # Errors
+    /// Those of [`TriangleMesh::read`].
+    pub fn read(bytes: &[u8]) -> Result<Self, SurfaceFault> {
+        let named = if bytes.starts_with(b"ply") {
+            ply::read(bytes)?.into()
         } else if stl::is_binary(bytes) {
-            stl::read_binary(bytes)?
+            stl::read_binary(bytes)?.into()
         } else {
             let text = String::from_utf8_lossy(bytes);
             if text.trim_start().starts_with("solid") {
@@ -28,6 +38,7 @@ impl TriangleMesh {
                 return Err(SurfaceFault::Kind);
             }
         };
+        let Self { mesh, groups } = named;
         at_most(mesh.triangles.len())?;
         if mesh.triangles.len() < 4 {
             return Err(SurfaceFault::Count { n: mesh.triangles.len() });
@@ -36,9 +47,11 @@ impl TriangleMesh {
         if let Some(vertex) = mesh.vertices.iter().position(|vertex| !is_finite(vertex)) {
             return Err(SurfaceFault::NotFinite { vertex });
         }
-        Ok(mesh.joined())
+        Ok(Self { mesh: mesh.joined(), groups })
     }
+}
 
+impl TriangleMesh {
     /// The same with one vertex at each place, and none that no triangle has.
     fn joined(&self) -> Self {
         let mut numbers: HashMap<[u64; 3], u32> = HashMap::new();

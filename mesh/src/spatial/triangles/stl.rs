@@ -1,7 +1,7 @@
 //! STL: triangles by the places of their corners, as text or binary.
 
 use super::lines::at_line;
-use super::{SurfaceFault, TriangleMesh, at_most};
+use super::{NamedTriangles, SurfaceFault, TriangleMesh, at_most};
 use crate::Point;
 use crate::number::index_u32;
 
@@ -41,8 +41,8 @@ pub fn read_binary(bytes: &[u8]) -> Result<TriangleMesh, SurfaceFault> {
 }
 
 /// Reads a text.
-pub fn read_text(text: &str) -> Result<TriangleMesh, SurfaceFault> {
-    let mut mesh = TriangleMesh::default();
+pub fn read_text(text: &str) -> Result<NamedTriangles, SurfaceFault> {
+    let mut named = NamedTriangles::default();
     let mut corners: Vec<Point<3>> = Vec::new();
     for (nth, line) in text.lines().enumerate() {
         let mut words = line.split_whitespace();
@@ -59,17 +59,19 @@ pub fn read_text(text: &str) -> Result<TriangleMesh, SurfaceFault> {
                     let found = format!("a facet has {} corners, not 3", corners.len());
                     return Err(at_line(nth, found));
                 }
-                at_most(mesh.triangles.len())?;
-                push(&mut mesh, corners.drain(..));
+                at_most(named.mesh.triangles.len())?;
+                push(&mut named.mesh, corners.drain(..));
             }
-            Some("solid" | "facet" | "outer" | "endfacet" | "endsolid") | None => {}
+            Some("solid") => named.begin(&line.trim_start()[5..]),
+            Some("facet" | "outer" | "endfacet" | "endsolid") | None => {}
             Some(_) => return Err(at_line(nth, "this is no line of an STL file")),
         }
     }
     if !corners.is_empty() {
         return Err(at_line(text.lines().count(), "the file ends within a facet"));
     }
-    Ok(mesh)
+    named.close();
+    Ok(named)
 }
 
 fn push(mesh: &mut TriangleMesh, corners: impl Iterator<Item = Point<3>>) {

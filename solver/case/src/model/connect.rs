@@ -1,4 +1,4 @@
-//! What a case waits for, by name: every `command` of a model gets a history of its own.
+//! What parts of a model take from the whole: every `command` its name and a history of its own.
 
 use super::Model;
 use super::commands::Commands;
@@ -19,6 +19,15 @@ impl Model {
         let mut model = self.clone();
         model.connect_commands();
         model
+    }
+
+    /// Gives expressions of midlines the numbers of the case.
+    pub(super) fn define_midlines(&mut self) {
+        for body in &mut self.bodies {
+            if let Some(GaitSpec::Midline(gait)) = &mut body.gait {
+                gait.definitions.clone_from(&self.case.define);
+            }
+        }
     }
 
     /// Finds all commands, and gives each a history.
@@ -62,6 +71,13 @@ impl Model {
         let magnetic = self.case.field.as_mut().and_then(|field| field.magnetic.as_mut());
         for (what, below, command) in magnetic.map(of_magnetic).unwrap_or_default() {
             commands.connect(format!("field.{what}"), format!("field.magnetic.{below}"), command);
+        }
+        let thrusters = self.case.reduced.iter_mut().flat_map(|reduced| &mut reduced.thruster);
+        for (index, thruster) in thrusters.enumerate() {
+            if let Some(command) = of_stroke(Some(&mut thruster.drive)) {
+                let key = format!("reduced.thruster.{index}.drive");
+                commands.connect(format!("thruster.{}", thruster.name), key, command);
+            }
         }
         self.commands = commands;
     }
@@ -190,8 +206,8 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
                 }
             }
         }
-        Some(GaitSpec::Anguilliform(_) | GaitSpec::Flagellum(_) | GaitSpec::Pulsating(_))
-        | None => {}
+        // Others wait for nothing
+        Some(_) | None => {}
     }
     found
 }

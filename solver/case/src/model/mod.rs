@@ -13,6 +13,7 @@ mod parts;
 mod probes;
 pub(crate) mod random;
 pub(crate) mod region;
+mod sizing;
 pub(crate) mod speed;
 
 use std::collections::HashMap;
@@ -119,6 +120,7 @@ impl Model {
             }
         }
         model.connect_commands();
+        model.define_midlines();
         Ok(model)
     }
 

@@ -32,11 +32,12 @@ pub fn opposite(side: &str) -> Option<&'static str> {
 }
 
 impl Case {
-    /// The mesh the domain is given by; `None` of other domains.
+    /// The mesh the domain is given by, or that was made inside a surface; `None` of other domains.
     #[must_use]
     pub fn given_mesh(&self) -> Option<&MeshFile> {
         match &self.domain {
             DomainSpec::Mesh(file) => Some(file),
+            DomainSpec::Surface(region) => region.mesh(),
             _ => None,
         }
     }
@@ -100,6 +101,9 @@ impl Case {
             (DomainSpec::Cylinder { .. }, Geometry::Spatial) => vec!["left", "right", "wall"],
             (DomainSpec::Cylinder { .. }, _) => vec!["left", "right", "wall", "axis"],
             (DomainSpec::Mesh(file), _) => file.side_names(),
+            (DomainSpec::Surface(region), _) => {
+                region.mesh().map_or_else(Vec::new, MeshFile::side_names)
+            }
         }
     }
 
@@ -121,6 +125,9 @@ impl Case {
             DomainSpec::Cylinder { x, radius } => Extent::between(&x[..1], &[x[1], *radius]),
             DomainSpec::Sphere { center, radius } => Extent::around(*center, [*radius; 3]),
             DomainSpec::Mesh(file) => file.extent(),
+            DomainSpec::Surface(region) => {
+                region.mesh().map_or_else(|| Extent::between(&[], &[]), MeshFile::extent)
+            }
         }
     }
 
@@ -147,7 +154,7 @@ impl Case {
             is_periodic("bottom") || is_periodic("top"),
         );
         match self.domain {
-            DomainSpec::Mesh(_) => {
+            DomainSpec::Mesh(_) | DomainSpec::Surface(_) => {
                 let [min, max] = self.extent().in_plane().map(Into::into);
                 Domain::Box { min, max, periodic_x: false, periodic_y: false }
             }

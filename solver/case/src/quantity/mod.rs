@@ -2,16 +2,19 @@
 //!
 //! A new quantity is one row of `table.rs` and one arm of its `match` in the measurements of a run.
 
+mod differentiable;
 mod row;
 mod sides;
 mod table;
 
 use crate::{FlowModel, Geometry, MagneticSpec, Model, SwimmerModel, TimeSettings};
 
+pub use self::differentiable::differentiable_columns;
 pub use self::row::{Component, Condition, NamedComponent, Quantity, Shape};
 use self::sides::reported_sides;
 pub use self::table::{
     BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, SideQuantity, SwimmerQuantity,
+    TracerQuantity,
 };
 
 /// A column of `series.csv`: which quantity, and of what.
@@ -25,6 +28,8 @@ pub enum Source {
     Swimmer(usize, SwimmerQuantity),
     /// Of a probe, by its number in [`Case::probe`](crate::Case::probe).
     Probe(usize, ProbeQuantity),
+    /// Of a cloud of tracers, by its number in [`Case::tracer`](crate::Case::tracer).
+    Tracer(usize, TracerQuantity),
     /// Of the flow.
     Flow(FlowQuantity),
     /// Of a side, by its number in [`Case::sides`](crate::Case::sides).
@@ -80,6 +85,12 @@ pub fn columns(model: &Model) -> Vec<Column> {
     for (nth, probe) in case.probe.iter().enumerate() {
         let source = |quantity| Source::Probe(nth, quantity);
         add(&mut columns, &probe.name, ProbeQuantity::TABLE, &of_case, source);
+    }
+    for (nth, tracer) in case.tracer.iter().enumerate() {
+        let source = |quantity| Source::Tracer(nth, quantity);
+        let region = Condition::Region.holding_if(tracer.region.is_some());
+        let known: Vec<Condition> = of_case.iter().copied().chain(region).collect();
+        add(&mut columns, &tracer.name, TracerQuantity::TABLE, &known, source);
     }
     add(&mut columns, "flow", FlowQuantity::TABLE, &of_case, Source::Flow);
     for side in reported_sides(model) {

@@ -95,6 +95,8 @@ pub enum Condition {
     Activation,
     /// It is one whose head is attached.
     Attached,
+    /// The tracers have a region.
+    Region,
 }
 
 impl Condition {
@@ -129,6 +131,7 @@ impl Condition {
             Self::Rod => "[`rod`](#bodies-that-bend-by-themselves)",
             Self::Activation => "[`activation`](#bodies-that-bend-by-themselves)",
             Self::Attached => "[`attached`](#bodies-that-bend-by-themselves)",
+            Self::Region => "`region`",
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Which sides of a domain are reported in `series.csv`.
 
-use crate::{BoundaryCondition, DomainSpec, Model};
+use crate::{BoundaryCondition, Model};
 
 /// A side with quantities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub struct ReportedSide<'a> {
 /// that of a body.
 pub fn reported_sides(model: &Model) -> Vec<ReportedSide<'_>> {
     let case = &model.case;
-    let by_default = model.bodies.is_empty() || matches!(case.domain, DomainSpec::Mesh(_));
+    let by_default = model.bodies.is_empty() || case.given_mesh().is_some();
     let are_all = case.output.sides.unwrap_or(by_default);
     let is_named = |side: &str| {
         let quantities = case.reference.iter().flat_map(|reference| {

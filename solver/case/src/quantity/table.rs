@@ -175,6 +175,20 @@ quantities! {
 }
 
 quantities! {
+    /// Quantities of tracers, named `NAME.count` and so on.
+    TracerQuantity {
+        Position: Vector, "", "m", [], "Mean position of the particles in the fluid, continuous across periodic sides; NaN without any";
+        Count: Scalar, "count", "1", [], "Particles in the fluid";
+        Left: Scalar, "left", "1", [], "Particles that have left through sides that fluid crosses";
+        Dispersion: Vector, "dispersion", "m2", [],
+            "Variance of the displacements of the particles in the fluid since their release; NaN without any";
+        Inside: Scalar, "inside", "1", [Region], "Particles in the region";
+        Residence: Scalar, "residence", "s", [Region],
+            "Mean of the time that particles have spent in the region so far, of all that were released";
+    }
+}
+
+quantities! {
     /// Quantities of a side of the domain, named `SIDE.force.x` and so on.
     SideQuantity {
         Force: Vector, "force", "N (N/m)", [],

@@ -6,7 +6,10 @@
 //! inherited: what is known of one problem does not hold for another. Then the values of files take the place of
 //! their names.
 
+mod calibrated_file;
 pub(crate) mod case_text;
+mod columns;
+mod left_out;
 pub mod library;
 mod outline_file;
 pub(crate) mod problem_keys;
@@ -14,7 +17,9 @@ pub(crate) mod read_mesh;
 pub(crate) mod recording;
 mod reference_rows;
 mod reference_table;
+mod region_file;
 pub(crate) mod schema;
+pub(crate) mod sought;
 mod stroke_file;
 mod surface_file;
 mod typing;
@@ -23,6 +28,7 @@ mod variants;
 use std::sync::Arc;
 
 use self::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
+use self::columns::{midline_file, probe_line, seed_file};
 use self::reference_rows::REFERENCES;
 use self::typing::typed;
 use self::variants::{apply_variant, check_names, variant_names};
@@ -151,7 +157,14 @@ impl Case {
     /// # Errors
     /// When a value cannot be written as TOML.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string_pretty(self)
+        if self.left_out.is_empty() {
+            return toml::to_string_pretty(self);
+        }
+        let mut table = toml::Table::try_from(self)?;
+        for name in &self.left_out {
+            table.remove(*name);
+        }
+        toml::to_string_pretty(&table)
     }
 }
 
@@ -235,9 +248,17 @@ impl UntypedCase {
             spec::read(sweep).map_err(wrong)?;
         }
         outline_file::resolve(&mut self.root).map_err(wrong)?;
+        seed_file::resolve(&mut self.root).map_err(wrong)?;
+        probe_line::resolve(&mut self.root).map_err(wrong)?;
+        midline_file::resolve(&mut self.root).map_err(wrong)?;
         stroke_file::resolve(&mut self.root).map_err(wrong)?;
-        let mut case = typed(&self.root)?;
+        region_file::resolve(&mut self.root).map_err(wrong)?;
+        calibrated_file::resolve(&mut self.root).map_err(wrong)?;
+        let (complete, left_out) = left_out::completed(&self.root).map_err(wrong)?;
+        let mut case = typed(&complete)?;
+        case.left_out = left_out;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;
+        region_file::read_into(&mut case, &self.root).map_err(wrong)?;
         surface_file::read_into(&mut case, &self.root).map_err(wrong)?;
         complete_periodic(&mut case);
         complete_cylinders(&mut case);

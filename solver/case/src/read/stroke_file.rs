@@ -11,7 +11,7 @@ use crate::text::tree::{TomlNode, TomlValue, TreeError};
 use crate::text::type_error::{KNOTS_OF_A_FILE, TypeError, suggestion};
 
 /// Tables of a case with strokes in them.
-const TABLES: [&str; 5] = ["body", "joint", "swimmer", "field", "flow"];
+const TABLES: [&str; 6] = ["body", "joint", "swimmer", "field", "flow", "reduced.thruster"];
 
 /// What is asked of the times of a file.
 const TIMES: &str = "times must rise from row to row, the first at 0 or before, the last at the end \
@@ -84,7 +84,7 @@ impl FileStroke {
 /// When a file cannot be read, or has no such columns with numbers.
 pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
     for table in TABLES {
-        if let Some(node) = root.table_mut().and_then(|entries| entries.get_mut(table)) {
+        if let Some(node) = root.find_mut(table) {
             resolve_below(node, table)?;
         }
     }

@@ -63,7 +63,7 @@ fn check_domain(findings: &mut Findings<'_>) {
             format!("the cylinder from {} to {} is empty", x[0], x[1]),
             "write x = [start, end] with start < end",
         ),
-        DomainSpec::Mesh(_) => given_mesh::check(findings),
+        DomainSpec::Mesh(_) | DomainSpec::Surface(_) => given_mesh::check(findings),
         _ => {}
     }
 }

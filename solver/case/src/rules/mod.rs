@@ -6,6 +6,7 @@
 
 mod angles;
 mod body;
+mod calibration;
 mod command;
 mod contact;
 mod declared;
@@ -18,6 +19,7 @@ mod flow;
 mod general;
 mod given;
 mod near;
+mod optimisation;
 mod placement;
 mod reduced;
 mod references;
@@ -29,8 +31,8 @@ pub use self::reduced::check_reduced;
 
 use self::body::{bodies, joints, strokes, swimmers};
 use self::findings::Findings;
-use self::flow::{boundary, cells, fluid, mean_flow, mesh};
-use crate::{CaseFile, Diagnostic, Geometry};
+use self::flow::{boundary, cells, fluid, mean_flow, mesh, tracers};
+use crate::{CaseFile, Diagnostic, Geometry, Severity};
 
 /// All diagnostics of a case: errors, which stop a run, and warnings.
 #[must_use]
@@ -46,7 +48,10 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     general::check(&mut findings);
     fluid::check(&mut findings);
     expressions::check(&mut findings);
-    boundary::check(&mut findings);
+    let has_flow = !file.case().is_reduced_only();
+    if has_flow {
+        boundary::check(&mut findings);
+    }
     mean_flow::check(&mut findings);
     bodies::check(&mut findings);
     space::check(&mut findings);
@@ -54,24 +59,42 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     swimmers::check(&mut findings);
     field::check(&mut findings);
     contact::check(&mut findings);
-    mesh::check(&mut findings);
+    if has_flow {
+        mesh::check(&mut findings);
+    }
     time::check(&mut findings);
+    tracers::check(&mut findings);
     references::check(&mut findings);
     reduced::check(&mut findings);
+    optimisation::check(&mut findings, file);
+    calibration::check(&mut findings);
     extremes::check(&mut findings, file);
-    if findings.has_no_error() {
+    if has_flow && findings.has_no_error() {
         cells::check(&mut findings);
     }
-    if findings.has_no_error() {
+    if has_flow && findings.has_no_error() {
         placement::check(&mut findings);
     }
-    if findings.has_no_error() {
+    if has_flow && findings.has_no_error() {
         given::check(&mut findings);
     }
     let in_plane = file.model.case.geometry != Geometry::Spatial;
-    if in_plane && findings.has_no_error() {
+    if has_flow && in_plane && findings.has_no_error() {
         strokes::check(&mut findings);
         near::check(&mut findings);
     }
     findings.into_diagnostics()
+}
+
+/// All that keeps a case from being run by the full solver, whose tables a case with `[reduced]` may leave out.
+#[must_use]
+pub fn check_flow(file: &CaseFile) -> Vec<Diagnostic> {
+    let missing = |name: &&'static str| Diagnostic {
+        severity: Severity::Error,
+        key: (*name).to_owned(),
+        message: format!("`{name}` is missing, and the full solver needs it"),
+        help: format!("add [{name}], or run the reduced model: --fidelity reduced"),
+        location: file.location(""),
+    };
+    file.case().left_out.iter().map(missing).collect()
 }

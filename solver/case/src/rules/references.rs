@@ -181,7 +181,8 @@ fn is_date(text: &str) -> bool {
             if (1..=12).contains(&month) && (1..=31).contains(&day))
 }
 
-fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known: &[String]) {
+/// Whether a case has a quantity.
+pub fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known: &[String]) {
     if known.iter().any(|name| name == quantity) {
         return;
     }

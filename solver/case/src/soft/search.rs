@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
 use crate::spec::number::{NonNegative, Positive};
+pub use crate::spec::optimisation::SearchSettings;
 
 /// `[calibration]`: numbers that make the markers move as recorded.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -84,27 +85,6 @@ pub struct Parameter {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub scale: Option<f64>,
-}
-
-/// `search`: how a search ends.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(default, deny_unknown_fields)]
-pub struct SearchSettings {
-    /// Evaluations at most.
-    pub evaluations: usize,
-    /// Relative decrease in an iteration that ends it.
-    #[cfg_attr(test, schemars(with = "Positive"))]
-    pub decrease: f64,
-    /// Slope, of the objective at the start, below which no parameter would change it.
-    #[cfg_attr(test, schemars(with = "Positive"))]
-    pub slope: f64,
-}
-
-impl Default for SearchSettings {
-    fn default() -> Self {
-        Self { evaluations: 100, decrease: 1e-6, slope: 1e-6 }
-    }
 }
 
 /// `[robot]`: the case with other numbers, which stands for the robot.

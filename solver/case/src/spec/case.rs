@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Body, BoundaryCondition, ContactSpec, DomainSpec, FieldSpec, FlowModel, Fluid, Geometry,
-    InitialFlow, Joint, LoadLaw, MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe,
-    ReducedSpec, Reference, Scales, Statistics, SwimmerSpec, TimeSettings, Units, Variant,
+    Body, BoundaryCondition, CalibrationSpec, ContactSpec, DomainSpec, FieldSpec, FlowModel,
+    FlowOptimisation, Fluid, Geometry, InitialFlow, Joint, LoadLaw, MagneticSpec, MeanFlowSpec,
+    MeshSettings, Numbers, Output, Probe, ReducedSpec, Reference, Scales, Statistics, SwimmerSpec,
+    TimeSettings, TracerSpec, Units, Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -33,7 +34,8 @@ pub struct Case {
     pub frame: Option<String>,
     /// The fluid and its equations.
     pub fluid: Fluid,
-    /// The region, with named sides.
+    /// The region, with named sides; a case with `[reduced]` that is run by its reduced model alone needs none.
+    #[cfg_attr(test, schemars(with = "Option<DomainSpec>"))]
     pub domain: DomainSpec,
     /// What holds on each side of the domain, by the side's name.
     #[serde(default)]
@@ -62,7 +64,14 @@ pub struct Case {
     /// The reduced model, for runs with `--fidelity reduced`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedSpec>,
-    /// Cell sizes.
+    /// Which numbers `alewife optimise` finds, and for what.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub optimisation: Option<FlowOptimisation>,
+    /// Coefficients of the reduced model that are to be found, for `alewife calibrate`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub calibration: Option<CalibrationSpec>,
+    /// Cell sizes; as the region.
+    #[cfg_attr(test, schemars(with = "Option<MeshSettings>"))]
     pub mesh: MeshSettings,
     /// Steady solution or time steps.
     pub time: TimeSettings,
@@ -72,6 +81,9 @@ pub struct Case {
     /// Points at which the flow is measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probe: Vec<Probe>,
+    /// Particles that the flow carries along.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tracer: Vec<TracerSpec>,
     /// Length and velocity that make coefficients and numbers dimensionless.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scales: Option<Scales>,
@@ -90,6 +102,9 @@ pub struct Case {
     /// Members of a family: the same case with some keys set, and its own references.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variant: Vec<Variant>,
+    /// Tables that only the full solver needs, and that were left out.
+    #[serde(skip)]
+    pub left_out: Vec<&'static str>,
 }
 
 impl Case {

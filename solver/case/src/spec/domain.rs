@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::body::command::Command;
 use super::formula::Formula;
 use super::mesh_file::MeshFile;
+use super::region::RegionSpec;
 #[cfg(test)]
 use crate::spec::number::{FormulaPerDimension, NonNegative, NonZero, PerDimension, Positive};
 
@@ -111,6 +112,9 @@ pub enum DomainSpec {
     /// The region of a mesh made by Gmsh, with its physical names as sides (planar, spatial).
     #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     Mesh(MeshFile),
+    /// The inside of a closed surface from an STL, OBJ or PLY file, with named sides (spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
+    Surface(RegionSpec),
 }
 
 /// A named function of time (1), used as a factor.

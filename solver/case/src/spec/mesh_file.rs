@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use alewife_mesh::spatial::Imported;
-use alewife_mesh::{BoundaryId, Bounds, Mesh, MshError, MshOptions, SideShape, read_msh_with};
+use alewife_mesh::{Bounds, DomainMesh, Mesh, MshError, MshOptions, SideShape};
 use serde::{Deserialize, Serialize};
 
 use super::extent::Extent;
@@ -44,7 +44,8 @@ impl PartialEq for MeshFile {
 /// What a file holds.
 #[derive(Debug)]
 pub(crate) struct Contents {
-    bytes: Vec<u8>,
+    /// Content of the file; `None` of a mesh that was made.
+    bytes: Option<Vec<u8>>,
     mesh: GivenMesh,
     sides: Vec<NamedSide>,
     extent: Extent,
@@ -74,39 +75,45 @@ impl Contents {
         dimensions: usize,
     ) -> Result<Self, MshError> {
         if dimensions == 2 {
-            let read = read_msh_with::<2>(&bytes, options)?;
-            let mut contents = Self::of(bytes, &read.mesh, GivenMesh::Planar(read.mesh.clone()));
-            contents.notes = read.notes;
-            Ok(contents)
+            let read = DomainMesh::<2>::read(&bytes, options)?;
+            Ok(Self::of(Some(bytes), &read, GivenMesh::Planar(read.mesh.clone())))
         } else {
-            let read = read_msh_with::<3>(&bytes, options)?;
-            let imported = Imported::new(read.mesh);
-            let mut contents =
-                Self::of(bytes, imported.mesh(), GivenMesh::Spatial(imported.clone()));
-            contents.notes = read.notes;
-            Ok(contents)
+            let read = DomainMesh::<3>::read(&bytes, options)?;
+            let imported = Imported::new(read.mesh.clone());
+            Ok(Self::of(Some(bytes), &read, GivenMesh::Spatial(imported)))
         }
     }
 
-    fn of<const D: usize>(bytes: Vec<u8>, from: &Mesh<D>, mesh: GivenMesh) -> Self {
-        let sides = from.boundaries.iter().enumerate().map(|(index, boundary)| NamedSide {
-            name: boundary.name.clone(),
-            shape: from.side_shape(BoundaryId::new(index)),
-        });
-        let bounds = Bounds::around(&from.nodes);
+    /// A mesh that was made inside a surface.
+    pub(crate) fn of_region(mesh: Mesh<3>) -> Self {
+        let imported = Imported::new(mesh.clone());
+        Self::of(None, &DomainMesh::of(mesh), GivenMesh::Spatial(imported))
+    }
+
+    fn of<const D: usize>(bytes: Option<Vec<u8>>, from: &DomainMesh<D>, mesh: GivenMesh) -> Self {
+        let sides = from.mesh.boundaries.iter().zip(&from.sides);
+        let sides =
+            sides.map(|(boundary, shape)| NamedSide { name: boundary.name.clone(), shape: *shape });
+        let bounds = Bounds::around(&from.mesh.nodes);
         Self {
             bytes,
             sides: sides.collect(),
             extent: Extent::between(bounds.min.as_slice(), bounds.max.as_slice()),
-            n_cells: from.n_cells(),
-            measure: from.measure(),
-            notes: Vec::new(),
+            n_cells: from.mesh.n_cells(),
+            measure: from.measure,
+            notes: from.notes.clone(),
             mesh,
         }
     }
 }
 
 impl MeshFile {
+    /// A mesh that was made inside a surface.
+    pub(crate) fn of_region(contents: Arc<Contents>) -> Self {
+        let contents = Some(contents);
+        Self { file: String::new(), scale: 1.0, sides: Vec::new(), checksum: None, contents }
+    }
+
     fn named_sides(&self) -> &[NamedSide] {
         self.contents.as_ref().map_or(&[], |contents| contents.sides.as_slice())
     }
@@ -166,9 +173,9 @@ impl MeshFile {
         }
     }
 
-    /// The content of the file.
+    /// The content of the file; `None` of a mesh that was made inside a surface.
     #[must_use]
     pub fn bytes(&self) -> Option<&[u8]> {
-        self.contents.as_ref().map(|contents| contents.bytes.as_slice())
+        self.contents.as_ref()?.bytes.as_deref()
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::spec::fluid::tracer::SeedLine;
 #[cfg(test)]
 use crate::spec::number::{PerDimension, Positive};
 use crate::text::wall_time::WallTime;
@@ -116,9 +117,12 @@ fn every_step() -> Cadence {
 pub struct Probe {
     /// Name, used in outputs and references.
     pub name: String,
-    /// Where (m), one number per dimension.
-    #[cfg_attr(test, schemars(with = "PerDimension"))]
+    /// Where (m), one number per dimension; or `line`.
+    #[cfg_attr(test, schemars(with = "Option<PerDimension>"))]
     pub point: Vec<f64>,
+    /// Places of equal distance, one at each end: probes `NAME-1`, `NAME-2` and so on, which it becomes when the case is read.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<SeedLine>,
     /// The body it rides on, in whose frame its points are; those of the laboratory if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,

@@ -3,7 +3,8 @@
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 32] = [
+pub const CHOICES: [&str; 34] = [
+    "drive",
     "kind",
     "length",
     "angle",
@@ -15,6 +16,7 @@ pub const CHOICES: [&str; 32] = [
     "shape",
     "motion",
     "gait",
+    "objective",
     "orientation",
     "rest_orientation",
     "contact",

@@ -89,16 +89,23 @@ impl<'de> de::Deserializer<'de> for &TomlNode {
         _keys: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, TypeError> {
-        // Which would be taken as its values in the order of its keys
-        if matches!(self.value, TomlValue::Array(_)) {
-            return Err(no_table().at(&self.origin));
-        }
+        self.refuse_array()?;
         self.deserialize_any(visitor)
     }
 
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit
         unit_struct seq tuple tuple_struct map identifier ignored_any
+    }
+}
+
+impl TomlNode {
+    /// Refuses an array for a table, which would be taken as its values in the order of its keys.
+    fn refuse_array(&self) -> Result<(), TypeError> {
+        match self.value {
+            TomlValue::Array(_) => Err(no_table().at(&self.origin)),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -134,8 +141,7 @@ fn no_alternative(alternatives: &[&str]) -> TypeError {
 }
 
 fn alternatives_error(message: String, alternatives: &[&str]) -> TypeError {
-    let help = format!("give one of: {}", with_file(alternatives).join(", "));
-    TypeError::new(Mismatch::Other(message, help))
+    TypeError::new(Mismatch::NoAlternative { message, accepted: with_file(alternatives) })
 }
 
 struct ItemAccess<'a> {
@@ -251,6 +257,9 @@ impl<'de> de::VariantAccess<'de> for Alternative<'_> {
         visitor: V,
     ) -> Result<V::Value, TypeError> {
         let content = self.content()?;
-        de::Deserializer::deserialize_any(content, visitor).map_err(|error| error.below(self.tag))
+        content
+            .refuse_array()
+            .and_then(|()| de::Deserializer::deserialize_any(content, visitor))
+            .map_err(|error| error.below(self.tag))
     }
 }

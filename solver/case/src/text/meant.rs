@@ -10,7 +10,7 @@ pub struct Meant {
 }
 
 /// The word that is written, what is accepted instead, and how the one follows from the other.
-const WORDS: [(&str, &str, &str); 74] = [
+const WORDS: [(&str, &str, &str); 77] = [
     ("frequency", "period", "the inverse of the frequency"),
     ("freq", "period", "the inverse of the frequency"),
     ("f", "period", "the inverse of the frequency"),
@@ -49,6 +49,9 @@ const WORDS: [(&str, &str, &str); 74] = [
     ("b2", "modes", "[B1, B2, ...], where beta is B2 / B1"),
     ("beta", "modes", "[B1, B2, ...], where beta is B2 / B1"),
     ("u", "velocity", "a vector"),
+    ("stl", "surface", "{ file = \"body.stl\" }"),
+    ("obj", "surface", "{ file = \"body.obj\" }"),
+    ("every", "steps", "a number of steps between two of them, or `time`"),
     ("circle", "disc", ""),
     ("circle", "sphere", ""),
     ("ball", "sphere", ""),

@@ -2,10 +2,16 @@
 
 /// The word of `known` that takes the fewest edits to reach, if it is near enough to be meant.
 ///
-/// An edit inserts, removes or replaces a letter, or swaps it with its neighbour.
+/// An edit inserts, removes or replaces a letter, or swaps it with its neighbour. A word that was not written to its
+/// end is nearest to the shortest that begins with it.
 #[must_use]
 pub fn nearest<'a, S: AsRef<str>>(word: &str, known: &'a [S]) -> Option<&'a str> {
     let lower = word.to_lowercase();
+    let begins = |candidate: &&str| lower.len() > 2 && candidate.to_lowercase().starts_with(&lower);
+    if let Some(longer) = known.iter().map(AsRef::as_ref).filter(begins).min_by_key(|one| one.len())
+    {
+        return Some(longer);
+    }
     let edits = |candidate: &str| strsim::osa_distance(&lower, &candidate.to_lowercase());
     let (edits, candidate) = known
         .iter()
@@ -30,7 +36,7 @@ pub fn several_nearest<'a>(word: &str, known: &[&'a str]) -> Vec<&'a str> {
     };
     let mut found: Vec<&str> =
         known.iter().filter(|one| nearest(word, &[**one]).is_some()).copied().collect();
-    found.sort_by_key(|one| strsim::osa_distance(&lower, one));
+    found.sort_by_key(|one| (!one.starts_with(&lower), strsim::osa_distance(&lower, one)));
     for alike in known.iter().filter(is_alike) {
         if !found.contains(alike) {
             found.push(alike);
@@ -50,6 +56,8 @@ mod tests {
         assert_eq!(nearest("viscoisty", &known), Some("viscosity"));
         assert_eq!(nearest("Viscocity", &known), Some("viscosity"));
         assert_eq!(nearest("densty", &known), Some("density"));
+        let columns = ["sphere.x", "sphere.y", "sphere.angle", "sphere.drag_coefficient"];
+        assert_eq!(nearest("sphere.drag", &columns), Some("sphere.drag_coefficient"));
     }
 
     #[test]

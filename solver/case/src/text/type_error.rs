@@ -38,6 +38,13 @@ pub enum Mismatch {
         /// What is wanted.
         wanted: String,
     },
+    /// A value that is no alternative, or several at once.
+    NoAlternative {
+        /// What is wrong.
+        message: String,
+        /// What may be there.
+        accepted: Vec<String>,
+    },
     /// Anything else: what is wrong, and what to do.
     Other(String, String),
 }
@@ -109,7 +116,9 @@ impl TypeError {
             Mismatch::WrongType { found, wanted } => {
                 format!("`{path}` is {found} where {wanted} is wanted")
             }
-            Mismatch::Other(message, _) => format!("`{path}`: {message}"),
+            Mismatch::NoAlternative { message, .. } | Mismatch::Other(message, _) => {
+                format!("`{path}`: {message}")
+            }
         }
     }
 
@@ -136,6 +145,9 @@ impl TypeError {
                     String::new()
                 }
             }
+            Mismatch::NoAlternative { accepted, .. } => {
+                format!("give one of: {}", accepted.join(", "))
+            }
             Mismatch::Other(_, help) => help.clone(),
         }
     }
@@ -150,7 +162,17 @@ fn number_example(text: &str) -> String {
     if text.contains(':') && text.split(':').take(2).all(is_number) {
         return "one number; ranges are for `alewife sweep run`".to_owned();
     }
-    "write the number without quotes and without its unit".to_owned()
+    let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)));
+    let (digits, unit) = text.split_at(end.unwrap_or(text.len()));
+    if !is_number(digits) {
+        return format!("\"{text}\" is no number");
+    }
+    if unit.is_empty() {
+        return format!("write it without quotes: {digits}");
+    }
+    format!(
+        "write the number alone, in the units of all others in the case: {digits}, if that is so"
+    )
 }
 
 /// How an array is written instead of what is there.

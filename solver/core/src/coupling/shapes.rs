@@ -27,6 +27,8 @@ pub struct ShapeError {
 #[derive(Debug, Clone)]
 pub struct BodyShapes {
     time: f64,
+    /// Coordinates of all bodies that they are of.
+    coordinates: Vec<f64>,
     /// `None` for bodies that do not deform.
     shapes: Vec<Option<Arc<BodyShape>>>,
 }
@@ -56,7 +58,7 @@ impl BodyShapes {
         bodies: &[RigidBody],
         coordinates: &[f64],
     ) -> Result<Self, ShapeError> {
-        if coordinates.is_empty() {
+        if coordinates == self.coordinates {
             return Ok(self.clone());
         }
         Self::with(bodies, self.time, coordinates)
@@ -119,13 +121,14 @@ impl BodyShapes {
             Ok(Some(Arc::new(BodyShape { deformed, boundary })))
         };
         let bodies = bodies.iter().zip(coordinate_ranges(bodies));
-        Ok(Self { time, shapes: bodies.map(shape).collect::<Result<_, _>>()? })
+        let shapes = bodies.map(shape).collect::<Result<_, _>>()?;
+        Ok(Self { time, coordinates: coordinates.to_vec(), shapes })
     }
 
     /// At time zero, as if no body deformed.
     #[must_use]
     pub fn rigid(n_bodies: usize) -> Self {
-        Self { time: 0.0, shapes: vec![None; n_bodies] }
+        Self { time: 0.0, coordinates: Vec::new(), shapes: vec![None; n_bodies] }
     }
 
     /// When (s).

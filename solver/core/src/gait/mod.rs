@@ -22,7 +22,7 @@ pub use deformed_outline::{DeformedOutline, MaterialPoint, RecoilCorrection, Sha
 pub use error::GaitError;
 pub use flexible::FlexibleShape;
 pub use midline::{
-    AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Open,
+    AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Open, Own,
 };
 pub use pulse::{Pulse, PulseLaw};
 pub use recoil::RecoilMotion;

@@ -1,5 +1,7 @@
 //! `BaseFlow`: the steady flow of a case, its quantities and their adjoints.
 
+use std::rc::Rc;
+
 use super::error::GradientError;
 use super::mesh_of_bodies::MeshOfBodies;
 use super::objective::Weights;
@@ -10,7 +12,9 @@ use crate::coupling::{
     BodyLoads, FluidSystem, LoadDerivatives, ResidualAt, ResidualOnMesh, Solution, SurfaceLoads,
     load_derivatives,
 };
-use crate::run::{BodiesInFlow, CaseMesh, Dimension, RunError, simulation_with, steady_value};
+use crate::run::{
+    BodiesInFlow, CaseMesh, Dimension, RunError, simulation_on, simulation_with, steady_value,
+};
 use crate::step::{
     SteadyFlow, SteadyTask, Workspace, solve_steady, steady_convection, steady_terms,
 };
@@ -18,7 +22,7 @@ use crate::step::{
 /// The steady flow of a case.
 pub(super) struct BaseFlow<const D: usize> {
     /// The mesh for other numbers.
-    pub mesh: MeshOfBodies<D>,
+    pub mesh: Rc<MeshOfBodies<D>>,
     /// The case.
     pub point: CasePoint<D>,
     /// The system on its mesh.
@@ -43,11 +47,39 @@ where
     pub fn solve(file: &CaseFile, columns: Vec<Column>) -> Result<Self, GradientError> {
         let model = &file.model;
         let simulation = simulation_with::<D>(model, |_| Ok(()))?;
-        let (problem, mut work, shifts) =
+        let (problem, work, shifts) =
             (simulation.problem, simulation.work, simulation.state.image_shifts.clone());
         refuse(file, &problem)?;
-        let mesh = MeshOfBodies::new(model, &problem, &work.mesh, &shifts)?;
+        let mesh = Rc::new(MeshOfBodies::new(model, &problem, &work.mesh, &shifts)?);
         let point = CasePoint::new(file.clone(), problem, work.mesh.clone(), &shifts)?;
+        Self::at(mesh, point, work, columns)
+    }
+
+    /// The mesh of a case.
+    pub fn mesh_of(file: &CaseFile) -> Result<Rc<MeshOfBodies<D>>, GradientError> {
+        let simulation = simulation_with::<D>(&file.model, |_| Ok(()))?;
+        let (problem, mesh) = (&simulation.problem, &simulation.work.mesh);
+        refuse(file, problem)?;
+        let shifts = &simulation.state.image_shifts;
+        Ok(Rc::new(MeshOfBodies::new(&file.model, problem, mesh, shifts)?))
+    }
+
+    /// Solves for the flow of a case on a mesh that has followed its bodies.
+    pub fn on(
+        mesh: Rc<MeshOfBodies<D>>,
+        point: CasePoint<D>,
+        columns: Vec<Column>,
+    ) -> Result<Self, GradientError> {
+        let simulation = simulation_on::<D>(&point.model, point.mesh.clone())?;
+        Self::at(mesh, point, simulation.work, columns)
+    }
+
+    fn at(
+        mesh: Rc<MeshOfBodies<D>>,
+        point: CasePoint<D>,
+        mut work: Workspace<D>,
+        columns: Vec<Column>,
+    ) -> Result<Self, GradientError> {
         let SteadyFlow { solution, residual, .. } = steady_flow(&mut work, &point)?;
         let constraints = work.system.constraints(&point.problem, &point.mesh, point.bodies());
         let free = work.system.free_unknowns(&point.problem, &constraints, &solution);

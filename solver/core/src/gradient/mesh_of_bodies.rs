@@ -1,6 +1,6 @@
 //! `MeshOfBodies`: the mesh of a case, for the same bodies in other places and of other sizes.
 
-use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, Point};
+use alewife_mesh::{BoundaryId, BoundaryKind, Facet, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
 use super::error::GradientError;
@@ -8,7 +8,7 @@ use super::point::CasePoint;
 use crate::body::{Pose, on_mesh};
 use crate::case::{CaseFile, Model};
 use crate::coupling::Problem;
-use crate::motion::{MeshMotion, RigidMove, mesh_boundary_conditions};
+use crate::motion::{Limits, MeshMotion, RigidMove, mesh_boundary_conditions};
 use crate::run::{CaseMesh, Dimension, NearestOnBody, build_problem, motion_settings};
 
 /// The mesh of a case with what moves it.
@@ -93,7 +93,33 @@ where
         // Volumes may be those of the mesh
         let problem = build_problem(&file.model, &mesh)?;
         let mut point = CasePoint::new(file, problem, mesh, &self.shifts)?;
-        point.way = way / self.shortest_edge;
+        point.moved = moved;
         Ok(point)
+    }
+
+    /// Largest way of a node on a body between two cases, over the shortest edge on a body.
+    pub fn way(&self, from: &CasePoint<D>, to: &CasePoint<D>) -> f64 {
+        let moved = |case: &CasePoint<D>, node: NodeId| {
+            case.moved.get(node.index()).copied().unwrap_or_else(Point::<D>::zeros)
+        };
+        let mut way = 0.0f64;
+        for facet in self.mesh.facets.iter().filter(|facet| self.is_body(facet)) {
+            for node in self.mesh.facet_vertices(facet) {
+                way = way.max((moved(to, node) - moved(from, node)).norm());
+            }
+        }
+        way / self.shortest_edge
+    }
+
+    /// Whether the mesh is as good in all cells as it was before its nodes moved, but for a factor.
+    pub fn is_fit(&self, point: &CasePoint<D>) -> bool {
+        let quality = point.mesh.cell_qualities();
+        let new = self.mesh.cell_qualities();
+        let limit = Limits::default().quality;
+        quality.iter().zip(&new).all(|(quality, new)| *quality >= limit * new)
+    }
+
+    fn is_body(&self, facet: &Facet) -> bool {
+        self.bodies[facet.boundary.index()].is_some()
     }
 }

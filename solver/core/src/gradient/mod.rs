@@ -6,6 +6,8 @@
 //! from the case at either side of its value, and J - lambda . r there is compared (the discrete adjoint, @giles2000). A mesh keeps its topology and
 //! follows the surfaces of its bodies by the equation of the mesh motion.
 
+mod adjoint;
+mod by_numbers;
 mod differences;
 mod error;
 mod flow;
@@ -16,5 +18,7 @@ mod point;
 mod refusals;
 mod task;
 
+pub use adjoint::Derivatives;
+pub use by_numbers::{FlowByNumbers, NumberedCase};
 pub use error::GradientError;
-pub use task::{Derivatives, GradientTask, NumberAt, ReadCase, gradients, value_and_gradient};
+pub use task::{GradientTask, NumberAt, ReadCase, gradients, value_and_gradient};

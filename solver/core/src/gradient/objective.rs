@@ -2,39 +2,13 @@
 
 use super::error::GradientError;
 use crate::body::{RigidVector, Twist, Wrench};
-use crate::case::{Case, Column, Model, columns, nearest};
+use crate::case::{Case, Column, Model, differentiable_columns, nearest};
 use crate::coupling::{BodyLoads, LoadWeights};
 use crate::run::{BodiesInFlow, steady_value};
 
-/// Names, after that of their owner, of the quantities that follow from loads and velocities of bodies.
-const NAMES: [&str; 11] = [
-    "velocity",
-    "angular_velocity",
-    "force",
-    "torque",
-    "power",
-    "shape_power",
-    "lighthill_efficiency",
-    "drag_coefficient",
-    "lift_coefficient",
-    "side_coefficient",
-    "moment_coefficient",
-];
-
 /// The columns of these names.
 pub(super) fn objectives(model: &Model, names: &[String]) -> Result<Vec<Column>, GradientError> {
-    let bodies_and_swimmers = model.bodies.iter().map(|body| &body.name);
-    let owners: Vec<&String> =
-        bodies_and_swimmers.chain(model.swimmers.iter().map(|swimmer| &swimmer.name)).collect();
-    let is_differentiable = |column: &Column| {
-        let of = |owner: &&&String| column.name.strip_prefix(owner.as_str())?.strip_prefix('.');
-        owners.iter().filter_map(|owner| of(&owner)).any(|name| {
-            let whole = name.strip_suffix(['x', 'y', 'z']);
-            let whole = whole.and_then(|name| name.strip_suffix('.')).unwrap_or(name);
-            NAMES.contains(&whole)
-        })
-    };
-    let known: Vec<Column> = columns(model).into_iter().filter(is_differentiable).collect();
+    let known = differentiable_columns(model);
     let column = |name: &String| {
         let found = known.iter().find(|column| column.name == *name).cloned();
         found.ok_or_else(|| {

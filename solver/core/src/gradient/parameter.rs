@@ -1,7 +1,7 @@
 //! `Parameter`: a number of a case by which a gradient is taken.
 
 use super::error::GradientError;
-use crate::case::{CaseFile, nearest};
+use crate::case::{CaseFile, SOLVED_TABLES, nearest};
 
 /// A number of a case.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,9 +19,6 @@ const STEP: f64 = 1e-4;
 /// Longer steps of differences of complete solutions, which have fewer digits.
 const LONGER: f64 = 10.0;
 
-/// Tables with numbers of what is solved; those of all others say how.
-const TABLES: [&str; 7] = ["boundary", "body", "field", "fluid", "joint", "scales", "swimmer"];
-
 impl Parameter {
     /// The setting that gives it a value.
     pub fn setting(&self, value: f64) -> String {
@@ -36,7 +33,8 @@ impl Parameter {
     fn at(file: &CaseFile, key: &str) -> Result<Self, GradientError> {
         let table = key.split('.').next().unwrap_or_default();
         let known = file.number_keys();
-        let is_solved = |key: &str| TABLES.contains(&key.split('.').next().unwrap_or_default());
+        let is_solved =
+            |key: &str| SOLVED_TABLES.contains(&key.split('.').next().unwrap_or_default());
         let Some(value) = file.number(key) else {
             let known: Vec<&str> =
                 known.iter().map(String::as_str).filter(|key| is_solved(key)).collect();
@@ -50,7 +48,7 @@ impl Parameter {
                 ),
             ));
         };
-        if !TABLES.contains(&table) || key.ends_with(".size") {
+        if !SOLVED_TABLES.contains(&table) || key.ends_with(".size") {
             return Err(GradientError::refused(
                 file,
                 key,

@@ -1,6 +1,6 @@
 //! `CasePoint`: a case with some numbers changed, on the mesh of the case itself.
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 
 use super::error::GradientError;
@@ -22,8 +22,8 @@ pub(super) struct CasePoint<const D: usize> {
     pub poses: Vec<Pose>,
     /// The same in the mesh.
     pub in_mesh: Vec<Pose>,
-    /// Largest way of a node on a body, over the shortest edge on it.
-    pub way: f64,
+    /// By how much the nodes have moved (m); nothing where none has.
+    pub moved: Vec<Point<D>>,
     /// How it is solved.
     pub settings: Steady,
     shapes: BodyShapes,
@@ -56,7 +56,7 @@ impl<const D: usize> CasePoint<D> {
             mesh,
             poses,
             in_mesh,
-            way: 0.0,
+            moved: Vec::new(),
             settings,
             shapes,
             equations,

@@ -1,11 +1,11 @@
 //! `GradientTask`: which quantities of a case, by which of its numbers.
 
+use super::adjoint::{Derivatives, Ends, derivatives, ends};
 use super::differences::Differences;
 use super::error::GradientError;
 use super::flow::BaseFlow;
 use super::objective::objectives;
 use super::parameter::{Parameter, parameters};
-use super::point::CasePoint;
 use crate::case::{CaseError, CaseFile};
 use crate::run::{CaseMesh, Dimension};
 
@@ -23,22 +23,6 @@ pub struct GradientTask<'a> {
     pub by: &'a [String],
     /// Whether each derivative is compared with a difference of complete solutions.
     pub checks: bool,
-}
-
-/// A quantity with its derivatives.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Derivatives {
-    /// Name of its column.
-    pub of: String,
-    /// Its value.
-    pub value: f64,
-    /// How large the loads, powers or velocities are that it is made of: what would be zero is small beside it.
-    pub size: f64,
-    /// By each number, in the order in which they were asked for.
-    pub by: Vec<f64>,
-    /// The same by central differences of complete solutions on the mesh that moves with the number; empty unless asked
-    /// for.
-    pub differences: Vec<f64>,
 }
 
 /// The values of quantities of the steady flow of a case, and their derivatives.
@@ -92,30 +76,13 @@ where
     let columns = objectives(&file.model, task.of)?;
     let parameters = parameters(file, task.by)?;
     let mut flow = BaseFlow::<D>::solve(file, columns)?;
-    let adjoints = flow.adjoints()?;
-    let values = flow.values().iter().zip(flow.sizes()).zip(task.of);
-    let empty = |((value, size), name): ((&f64, &f64), &String)| Derivatives {
-        of: name.clone(),
-        value: *value,
-        size: *size,
-        by: Vec::new(),
-        differences: Vec::new(),
-    };
-    let mut found: Vec<Derivatives> = values.map(empty).collect();
-    for parameter in &parameters {
-        let ends = ends::<D>(task, &flow, parameter)?;
-        let sides = [
-            flow.lagrangians(&ends.points[0], &adjoints)?,
-            flow.lagrangians(&ends.points[1], &adjoints)?,
-        ];
-        for (quantity, derivatives) in found.iter_mut().enumerate() {
-            derivatives.by.push((sides[1][quantity] - sides[0][quantity]) / (2.0 * ends.step));
-        }
-    }
+    let mut found = derivatives(&mut flow, task.of, parameters.len(), &mut |flow, nth| {
+        ends_by(task, flow, &parameters[nth])
+    })?;
     if task.checks {
         let mut differences = Differences::new(flow);
         for parameter in &parameters {
-            let ends = ends::<D>(task, differences.flow(), &parameter.with_longer_step())?;
+            let ends = ends_by(task, differences.flow(), &parameter.with_longer_step())?;
             let by_number = differences.between(&ends.points, ends.step)?;
             for (derivatives, difference) in found.iter_mut().zip(by_number) {
                 derivatives.differences.push(difference);
@@ -126,16 +93,7 @@ where
 }
 
 /// The case at both sides of the value of a number.
-struct Ends<const D: usize> {
-    points: [CasePoint<D>; 2],
-    /// How far each is from the value.
-    step: f64,
-}
-
-/// Part of an edge by which nodes on bodies move at most.
-const WAY: f64 = 0.02;
-
-fn ends<const D: usize>(
+fn ends_by<const D: usize>(
     task: &GradientTask<'_>,
     flow: &BaseFlow<D>,
     parameter: &Parameter,
@@ -143,15 +101,8 @@ fn ends<const D: usize>(
 where
     Dimension<D>: CaseMesh<D>,
 {
-    let at = |value: f64| -> Result<CasePoint<D>, GradientError> {
-        let settings = ["numbers={}".to_owned(), parameter.setting(value)];
-        flow.mesh.point((task.read)(&settings)?)
-    };
-    let mut step = parameter.step;
-    let mut above = at(parameter.value + step)?;
-    if above.way > WAY {
-        step *= WAY / above.way;
-        above = at(parameter.value + step)?;
-    }
-    Ok(Ends { points: [at(parameter.value - step)?, above], step })
+    ends(flow, parameter.step, &|change| {
+        let settings = ["numbers={}".to_owned(), parameter.setting(parameter.value + change)];
+        (task.read)(&settings)
+    })
 }

@@ -3,7 +3,7 @@
 use alewife_mesh::Mesh;
 
 use super::RunError;
-use super::build::{build_problem, contact_law};
+use super::build::{Tracers, build_problem, contact_law};
 use super::case_mesh::{CaseMesh, Dimension, InitialMesh};
 use super::measure::Measure;
 use super::resume::SavedState;
@@ -40,6 +40,8 @@ where
     let images = |mesh: &Mesh<D>| Dimension::<D>::images(&model.case, mesh);
     let mut measure = Measure::new(model, mesh, &images(mesh))?;
     let mut simulation = at_rest(model, initial, timing, |_| Ok(()))?;
+    simulation.tracers =
+        Tracers::of(&model.case, &simulation.problem, images(&simulation.state.mesh));
     log_recoils(&simulation.problem)?;
     if let Some(saved) = saved {
         saved.restore_into(&model.case, &mut simulation, |problem, reference| {
@@ -171,6 +173,7 @@ fn at_rest<const D: usize>(
         law,
         scheme,
         is_fresh: true,
+        tracers: None,
         stop: None,
     };
     simulation.settle_moving_walls()?;

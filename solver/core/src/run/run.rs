@@ -195,6 +195,7 @@ impl<const D: usize> Run<'_, D> {
     /// The flow an unsteady run starts from.
     pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
         let start = self.simulation.begin(settings)?;
+        self.simulation.begin_tracers();
         self.report(&start.loads, StepSummary::default())
     }
 
@@ -236,6 +237,7 @@ impl<const D: usize> Run<'_, D> {
             mesh: &state.mesh,
             velocity: &state.now.velocity,
             pressure: &state.now.pressure,
+            tracers: &state.tracers,
             bodies: &measured.bodies,
             names: measure.names(),
             values: &measured.values,

@@ -3,6 +3,7 @@
 use alewife_mesh::{CellId, NodeId};
 use rayon::prelude::*;
 
+use super::build::Tracers;
 use super::error::RunError;
 use super::step_control::StepControl;
 use crate::case::{Convection, Scheme};
@@ -40,6 +41,8 @@ pub struct Simulation<const D: usize> {
     pub scheme: StepScheme,
     /// Whether no step has been made on this mesh.
     pub is_fresh: bool,
+    /// What the flow carries, if anything.
+    pub tracers: Option<Tracers<D>>,
     /// What to ask whether the run is to end.
     pub stop: Option<StopRequest>,
 }
@@ -169,7 +172,12 @@ impl<const D: usize> Simulation<D> {
         if contact_error > REJECTED {
             return Err(StepError::ContactNotResolved { excess: contact_error });
         }
+        let jumps = state.last_step == 0.0;
         state.accept(problem, level);
+        if let Some(tracers) = &self.tracers {
+            let moving = moving_mesh.as_ref();
+            work.timing.measure(Stage::Loads, || tracers.carry(problem, state, moving, jumps));
+        }
         state.record_step_errors(&report.errors);
         // As a run has it that resumes from this state
         work.system.fit_to_poses(problem, &work.mesh, &state.in_mesh(&state.poses));
@@ -208,6 +216,13 @@ impl<const D: usize> Simulation<D> {
         })?;
         self.is_fresh = true;
         Ok(())
+    }
+
+    /// Releases the tracers that are there at the start.
+    pub(super) fn begin_tracers(&mut self) {
+        if let Some(tracers) = &self.tracers {
+            self.state.carry_tracers(|state, clouds| tracers.begin(state, clouds));
+        }
     }
 
     /// Whether rates of gaits jump within `near` (s) of the present.

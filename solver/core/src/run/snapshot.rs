@@ -10,6 +10,7 @@ use crate::case::{Asked, Case, Recording};
 use crate::gait::RecoilCorrection;
 use crate::step::StopRequest;
 use crate::timing::Timing;
+use crate::tracer::Cloud;
 
 /// One body at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,6 +52,8 @@ pub struct Snapshot<'a, const D: usize> {
     pub velocity: &'a [Point<D>],
     /// Pressure at the vertices (Pa).
     pub pressure: &'a [f64],
+    /// Particles that the flow carries, a cloud for each `[[tracer]]` of the case.
+    pub tracers: &'a [Cloud<D>],
     /// All bodies.
     pub bodies: &'a [BodyReport],
     /// Names of the quantities of a row of `series.csv`, without `time`.

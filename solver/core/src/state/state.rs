@@ -22,6 +22,7 @@ use crate::coupling::{
     propulsion_power,
 };
 use crate::space::DofLayout;
+use crate::tracer::Cloud;
 
 /// Everything that evolves. It can be read everywhere and changes in this file only: it moves on in [`State::accept`], to another
 /// mesh in [`State::replace_mesh`]; [`State::restart`] lets rates jump. `begin`, `settle` and `complete_mesh` set it up;
@@ -90,6 +91,8 @@ pub struct Evolving<const D: usize> {
     pub energy: EnergyBalance,
     /// Impulses and momenta so far.
     pub momentum: MomentumBalance,
+    /// Particles that the flow carries, a cloud for each `[[tracer]]`.
+    pub tracers: Vec<Cloud<D>>,
 }
 
 impl<const D: usize> State<D> {
@@ -125,6 +128,7 @@ impl<const D: usize> State<D> {
             propulsion: vec![PropulsionHistory::default(); problem.groups.len()],
             energy: EnergyBalance::default(),
             momentum: MomentumBalance::default(),
+            tracers: Vec::new(),
             poses,
             mesh,
         })
@@ -267,6 +271,13 @@ impl<const D: usize> State<D> {
     /// Notes the errors of the last step.
     pub fn record_step_errors(&mut self, errors: &StepErrors) {
         self.0.step_errors.add(errors);
+    }
+
+    /// Has particles carried from the level before to the present one.
+    pub fn carry_tracers(&mut self, carry: impl FnOnce(&Evolving<D>, &mut Vec<Cloud<D>>)) {
+        let mut clouds = std::mem::take(&mut self.0.tracers);
+        carry(&self.0, &mut clouds);
+        self.0.tracers = clouds;
     }
 
     /// Time of the level before (s).

@@ -12,6 +12,7 @@ use super::{
 use crate::body::{Pose, Twist, Wrench};
 use crate::contact::{ContactLoads, MinimumGap, Partner};
 use crate::coupling::Solution;
+use crate::tracer::{Cloud, Fate, Particle};
 
 /// A triangle with all that a mesh may have.
 fn mesh(origin: Point<2>, nodes: &[Point<2>]) -> Mesh<2> {
@@ -96,6 +97,23 @@ fn propulsion() -> PropulsionHistory {
     history
 }
 
+fn cloud() -> Cloud<2> {
+    let [start, position, velocity, shift] = [0, 1, 2, 3].map(|nth| points(9.0)[nth]);
+    let particle = Particle {
+        seed: 5,
+        released: 0.25,
+        start,
+        position,
+        velocity,
+        shift,
+        cell: 2,
+        residence: 0.75,
+        is_inside: true,
+        fate: Fate::Left,
+    };
+    Cloud { particles: vec![particle], releases: 3 }
+}
+
 /// A field that is added to [`Evolving`] has to be added here, with a value that is not its default.
 fn state() -> State<2> {
     let origin = Vector3::new(0.25, -0.5, 0.0);
@@ -144,6 +162,7 @@ fn state() -> State<2> {
         propulsion: vec![propulsion()],
         energy: energy(),
         momentum: momentum(),
+        tracers: vec![cloud()],
     })
 }
 

@@ -51,7 +51,12 @@ pub(super) struct StepEquations<'a, const D: usize> {
 impl<const D: usize> StepEquations<'_, D> {
     /// Whether one linear system gives flow and bodies.
     pub fn is_linear(&self) -> bool {
-        !self.convects_by_newton() && !self.shears_by_newton() && self.problem.n_coordinates() == 0
+        self.has_linear_flow() && self.problem.n_coordinates() == 0
+    }
+
+    /// Whether only equations of coordinates are not linear.
+    pub fn has_linear_flow(&self) -> bool {
+        !self.convects_by_newton() && !self.shears_by_newton()
     }
 
     fn convects_by_newton(&self) -> bool {
@@ -67,6 +72,10 @@ impl<const D: usize> StepEquations<'_, D> {
 }
 
 impl<const D: usize> FlowEquations<D> for StepEquations<'_, D> {
+    fn on_iteration(&self, iteration: usize, residual: f64) {
+        tracing::debug!(iteration, residual, "newton");
+    }
+
     fn convecting_velocity(&self, solution: &Solution<D>) -> Vec<Point<D>> {
         let mesh_velocity = &self.configuration.mesh_velocity;
         let mut convecting: Vec<Point<D>> = if !self.problem.has_convection {

@@ -11,7 +11,7 @@ use super::stepper::{Step, TimeStepper};
 use crate::body::{Inertia, Pose, RigidVector, Twist, carried_velocity};
 use crate::coupling::{
     AttachedCoordinate, BodyShapes, FlexibleEquation, PosesByVelocity, Problem, RigidBody,
-    RigidBodyEquations, Solution,
+    RigidBodyEquations, ShapeError, Solution,
 };
 use crate::state::State;
 use crate::structure::Held;
@@ -158,6 +158,22 @@ impl<const D: usize> StepHistory<D> {
     /// The bodies at the time at which boundary values and rates of gaits are taken.
     pub fn boundary_shapes(&self) -> &BodyShapes {
         self.before_jump.as_ref().unwrap_or(&self.shapes)
+    }
+
+    /// The bodies with coordinates at that time, from those at the new time.
+    ///
+    /// # Errors
+    /// When they give a body no shape.
+    pub fn boundary_shapes_with(
+        &self,
+        problem: &Problem<D>,
+        coordinates: &[f64],
+        at_new_time: &BodyShapes,
+    ) -> Result<BodyShapes, ShapeError> {
+        match &self.before_jump {
+            Some(shapes) => shapes.with_coordinates(&problem.bodies, coordinates),
+            None => Ok(at_new_time.clone()),
+        }
     }
 
     /// Newton's and Euler's equations with bodies at these poses at the new time.

@@ -27,7 +27,7 @@ impl<const D: usize> StepContext<'_, D> {
             work.system.move_to(problem, &work.mesh);
         }
         let in_mesh = state.in_mesh(poses);
-        let shapes = history.boundary_shapes().with_coordinates(&problem.bodies, coordinates)?;
+        let shapes = history.boundary_shapes_with(problem, coordinates, shapes)?;
         let bodies = BodiesAt { poses: &in_mesh, shapes: &shapes };
         let constraints = work.system.constraints(problem, &work.mesh, bodies);
         work.system.fit_to(problem, &work.mesh, &constraints);

@@ -4,7 +4,7 @@ use super::configuration::StepConfiguration;
 use super::context::{Guess, Iterate, StepContext};
 use super::coupled_flow::{CoupledFlow, FlowUnderLoads};
 use super::error::StepError;
-use super::newton::{Criterion, Flow, newton};
+use super::newton::{Criterion, Flow, Tangents, newton};
 use super::placement::{Passes, Placement};
 use super::workspace::Workspace;
 use crate::contact::{ByMobility, ByQuasiNewton, ContactLoads, CoupledSolver};
@@ -64,9 +64,17 @@ impl<const D: usize> StepContext<'_, D> {
         let Workspace { system, mesh, timing } = work;
         let at = configuration.system(self.stepper.problem, mesh);
         let start = system.constrained(at.constraints, &guess.solution);
+        let of_step = Criterion::of_step(equations.is_linear(), guess.scale, has_contact);
         let criterion = Criterion {
             is_damped: equations.shears_by_newton(),
-            ..Criterion::of_step(equations.is_linear(), guess.scale, has_contact)
+            // Later passes correct what the first one leaves
+            scale: guess.scale.filter(|_| self.stepper.problem.n_coordinates() > 0),
+            tangents: if equations.has_linear_flow() {
+                of_step.tangents
+            } else {
+                Tangents::OfSystem
+            },
+            ..of_step
         };
         newton(system, timing, &at, &equations, &criterion, start)
             .map_err(|failure| failure.in_step(&self.history.step).into())

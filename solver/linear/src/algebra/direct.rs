@@ -164,6 +164,20 @@ impl DirectSolver {
         self.refined(rhs, Factors::solve_transposed, |x, b| matrix.transposed_residual(x, b))
     }
 
+    /// Whether the factors at hand are those of a matrix.
+    pub fn has_factors_of(&mut self, matrix: &SparseMatrix) -> bool {
+        self.factorised.is_some() && self.hash() == Some(self.hash_of(matrix))
+    }
+
+    /// Overwrites a right-hand side with its solution by one substitution with the factors at hand, whatever matrix they
+    /// are of; false where there are none.
+    pub fn substitute(&mut self, rhs: &mut [f64]) -> bool {
+        if self.factorised.is_some() {
+            self.factors.solve(&self.analysis, rhs);
+        }
+        self.factorised.is_some()
+    }
+
     /// Solves by a substitution, in place, and refines by what is left of the right-hand side.
     fn refined(
         &mut self,

@@ -124,8 +124,13 @@ impl<E: FnMut(&[f64]) -> Result<Evaluated, String>> Scaled<'_, E> {
     /// The size the objective is divided by.
     fn size(&self) -> f64 {
         let state = self.state.borrow();
-        let first = state.all.first().map_or(1.0, |found| found.objective.abs());
-        if first > 0.0 { first } else { 1.0 }
+        let Some(first) = state.all.first() else { return 1.0 };
+        let slopes = self.parameters.iter().zip(&first.values).zip(&first.slopes);
+        let slopes = slopes.map(|((one, value), slope)| (slope * one.slope(*value)).abs());
+        // A start at zero, as of a body that does not move yet, has the size of what numbers change
+        let size =
+            if first.objective == 0.0 { slopes.fold(0.0, f64::max) } else { first.objective.abs() };
+        if size > 0.0 { size } else { 1.0 }
     }
 }
 

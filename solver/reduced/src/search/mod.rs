@@ -6,7 +6,9 @@ mod error;
 mod journal;
 mod minimise;
 mod progress;
+mod report;
 mod sought;
+mod whole_file;
 
 pub use bounded::Bounded;
 pub use certainty::{Certainty, certainties};
@@ -14,4 +16,6 @@ pub use error::SearchError;
 pub use journal::{Journal, Opened};
 pub use minimise::{Ended, Evaluated, Found, Search, minimise};
 pub use progress::{Progress, search};
+pub use report::{Certainties, number_lines, numbers_to_json};
 pub use sought::Sought;
+pub use whole_file::write_whole;

@@ -79,7 +79,7 @@ where
     /// Those of a motion.
     pub fn value(&self) -> Result<f64, SoftError> {
         let Model { body, plan, .. } = &self.model;
-        let motion = body.simulate(plan)?;
+        let motion = Bodies::simulate(body, plan)?;
         Ok(match &self.kind {
             Kind::Calibration(markers) => body.value(&motion, markers),
             Kind::Optimisation(objective) => {
@@ -121,9 +121,9 @@ where
     fn try_evaluate(&mut self, values: &[f64]) -> Result<Evaluated, SoftError> {
         self.set(values)?;
         let Model { body, plan, .. } = &self.model;
-        let motion = body.simulate(plan)?;
+        let motion = Bodies::simulate(body, plan)?;
         let Begun { objective, seeds } = self.seeds(&motion);
-        let gradient = body.gradient(plan, &motion, seeds, false)?;
+        let gradient = Bodies::gradient(body, plan, &motion, seeds)?;
         let slope = |keys: &Vec<_>| keys.iter().map(|key| self.model.slope(&gradient, *key)).sum();
         let slopes = self.sought.keys.iter().map(slope).collect();
         Ok(Evaluated { values: values.to_vec(), objective, slopes })

@@ -10,6 +10,7 @@ use alewife_solid::solid::SolidMesh;
 
 use super::mesh::{Bodies, SolidOf};
 use super::model::Model;
+use crate::search::write_whole;
 use crate::soft::Trajectory;
 
 /// Files of a motion at most.
@@ -50,11 +51,11 @@ where
         let velocity = Array::new("velocity", D, &velocities);
         let mut bytes = Vec::new();
         write_vtu(&mut bytes, &mesh, Some(time), &[velocity], &[])?;
-        fs::write(directory.join(&name), bytes)?;
+        write_whole(&directory.join(&name), bytes)?;
         let _ = writeln!(list, "<DataSet timestep=\"{time}\" file=\"{name}\"/>");
     }
     list += "</Collection>\n</VTKFile>\n";
-    fs::write(directory.join("fields.pvd"), list)
+    write_whole(&directory.join("fields.pvd"), list)
 }
 
 /// Values at all nodes of the quadratic mesh: of a linear one, means at the middles of its edges.

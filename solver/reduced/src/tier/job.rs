@@ -16,7 +16,8 @@ use super::output::{fingerprint, write_case};
 use super::parameters::Sought;
 use super::rounds::settings;
 use crate::search::{
-    Bounded, Certainty, Ended, Evaluated, Found, Progress, SearchError, certainties, search,
+    Bounded, Certainties, Evaluated, Found, Progress, SearchError, certainties, number_lines,
+    numbers_to_json, search, write_whole,
 };
 
 /// The rise of a loss, of that at the start, that counts as one where parameters are called determined.
@@ -61,7 +62,7 @@ pub struct JobResult {
     /// The numbers that were sought.
     pub bounded: Vec<Bounded>,
     /// How well each is determined; why that is not known, where it is not.
-    pub certainties: Result<Vec<Certainty>, String>,
+    pub certainties: Certainties,
     /// Way and work at the best, of an optimisation.
     pub way_and_work: Option<WayAndWork>,
     /// The case with what was found.
@@ -149,7 +150,7 @@ where
         let Kind::Optimisation(objective) = self.seeker.kind.clone() else { return None };
         self.seeker.set(&best.values).ok()?;
         let Model { body, plan, .. } = &self.seeker.model;
-        let motion = body.simulate(plan).ok()?;
+        let motion = Bodies::simulate(body, plan).ok()?;
         Some(self.seeker.way_and_work(objective.direction(), &motion))
     }
 
@@ -174,88 +175,35 @@ impl JobResult {
     #[must_use]
     pub fn text(&self, which: Which) -> String {
         let Found { best, all, ended } = &self.found;
-        let ended = match ended {
-            Ended::Converged => "it converged".to_owned(),
-            Ended::Evaluations => "its evaluations are used up: the best so far".to_owned(),
-            Ended::Failed(why) => format!("it failed ({why}): the best so far"),
-        };
         let sign = if which == Which::Calibration { 1.0 } else { -1.0 };
         let what = if which == Which::Calibration { "loss" } else { "objective" };
         let first = all.first().map_or(f64::NAN, |first| first.objective);
         let mut text = format!(
-            "{} after {} evaluations: {what} {:.6e}, {:.6e} at the start; {ended}\n",
+            "{} after {} evaluations: {what} {:.6e}, {:.6e} at the start; {}\n",
             which.name(),
             all.len(),
             sign * best.objective,
-            sign * first
+            sign * first,
+            ended.text()
         );
         if let Some(WayAndWork { way, work }) = self.way_and_work {
             let _ = writeln!(text, "way {way:.6e}, work {work:.6e}");
         }
-        let width = self.bounded.iter().map(|one| one.name.len()).max().unwrap_or(0);
-        for (index, one) in self.bounded.iter().enumerate() {
-            let known = self.certainty(index);
-            let _ = writeln!(
-                text,
-                "  {:<width$}  {:.6e}  from {:.4e}, bounds {:.4e} {:.4e}  {known}",
-                one.name, best.values[index], one.start, one.lower, one.upper
-            );
-        }
-        if let Err(why) = &self.certainties {
-            let _ = writeln!(text, "how well they are determined is not known: {why}");
-        }
+        text += &number_lines(&self.bounded, &self.found, &self.certainties);
         text
-    }
-
-    /// What is known of a number, in words.
-    fn certainty(&self, index: usize) -> String {
-        let Some(one) = self.certainties.as_ref().ok().map(|all| all[index]) else {
-            return String::new();
-        };
-        let value = self.found.best.values[index];
-        let word = if one.is_determined { "" } else { "UNDETERMINED: " };
-        match (one.reach, self.bounded[index].scale) {
-            (None, _) => format!("at its bound, slope {:.2e}", one.slope),
-            (Some(reach), _) if reach.is_infinite() => format!("{word}along a valley"),
-            (Some(reach), None) => format!("{word}within a factor of {:.3}", reach.exp()),
-            (Some(reach), Some(scale)) => {
-                format!("{word}within {:.2e} of {value:.3e}", reach * scale)
-            }
-        }
     }
 
     /// The report as JSON.
     #[must_use]
     pub fn to_json(&self, which: Which) -> Value {
         let Found { best, all, ended } = &self.found;
-        let numbers: Vec<Value> = (0..self.bounded.len())
-            .map(|index| {
-                let one = &self.bounded[index];
-                let known = self.certainties.as_ref().ok().map(|all| all[index]);
-                json!({
-                    "name": one.name,
-                    "value": best.values[index],
-                    "start": one.start,
-                    "bounds": [one.lower, one.upper],
-                    "scale": one.scale,
-                    "slope": known.map(|known| known.slope),
-                    "reach": known.and_then(|known| known.reach).filter(|reach| reach.is_finite()),
-                    "determined": known.map(|known| known.is_determined),
-                })
-            })
-            .collect();
-        let ended = match ended {
-            Ended::Converged => "converged".to_owned(),
-            Ended::Evaluations => "evaluations".to_owned(),
-            Ended::Failed(why) => format!("failed: {why}"),
-        };
         json!({
             "search": which.name(),
             "objective": best.objective,
             "start": all.first().map(|first| first.objective),
             "evaluations": all.len(),
-            "ended": ended,
-            "parameters": numbers,
+            "ended": ended.word(),
+            "parameters": numbers_to_json(&self.bounded, &self.found, &self.certainties),
             "comparison": self.compared.iter().map(Compared::to_json).collect::<Vec<_>>(),
         })
     }
@@ -267,6 +215,6 @@ impl JobResult {
     pub fn write(&self, directory: &Path, file: &SoftFile, which: Which) -> std::io::Result<()> {
         write_case(directory, file, &self.case)?;
         let report = format!("{:#}\n", self.to_json(which));
-        std::fs::write(directory.join("report.json"), report)
+        write_whole(&directory.join("report.json"), report)
     }
 }

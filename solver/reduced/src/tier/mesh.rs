@@ -8,17 +8,38 @@ use alewife_mesh::{
 };
 use alewife_solid::solid::{Order, SolidError, SolidMesh};
 
+use crate::soft::{Gradient, Plan, Seeds, SoftBody, SoftError, Trajectory};
 use alewife_case::Diagnostic;
 use alewife_case::soft::SoftFile;
 use alewife_case::soft::solid::{GridSpec, OutlineSpec, SoftSolid, SolidOrder};
 
-/// Meshes of bodies of this many dimensions.
+/// Meshes and motions of bodies of this many dimensions.
+///
+/// What takes time is here and not in functions of any dimension: those are compiled where they are called, as in the
+/// program, which is optimised for a short build.
 pub trait SolidOf<const D: usize> {
     /// The mesh of the body of a case.
     ///
     /// # Errors
     /// What is wrong with what it is made from.
     fn mesh(file: &SoftFile, solid: &SoftSolid) -> Result<SolidMesh<D>, Diagnostic>;
+
+    /// The motion of a body, as [`SoftBody::simulate`] has it.
+    ///
+    /// # Errors
+    /// Those of a motion.
+    fn simulate(body: &SoftBody<D>, plan: &Plan) -> Result<Trajectory, SoftError>;
+
+    /// Derivatives of an objective of a motion, as [`SoftBody::gradient`] has them, but for those by the shape.
+    ///
+    /// # Errors
+    /// Those of the way back.
+    fn gradient(
+        body: &SoftBody<D>,
+        plan: &Plan,
+        motion: &Trajectory,
+        seeds: Seeds,
+    ) -> Result<Gradient, SoftError>;
 }
 
 /// Two and three dimensions.
@@ -42,6 +63,19 @@ impl SolidOf<2> for Bodies {
         let all = triangles.cells.iter().map(|cell| cell.to_vec()).collect();
         cells(file, key, (triangles.points, all), solid.order)
     }
+
+    fn simulate(body: &SoftBody<2>, plan: &Plan) -> Result<Trajectory, SoftError> {
+        body.simulate(plan)
+    }
+
+    fn gradient(
+        body: &SoftBody<2>,
+        plan: &Plan,
+        motion: &Trajectory,
+        seeds: Seeds,
+    ) -> Result<Gradient, SoftError> {
+        body.gradient(plan, motion, seeds, false)
+    }
 }
 
 impl SolidOf<3> for Bodies {
@@ -60,6 +94,19 @@ impl SolidOf<3> for Bodies {
         };
         let plate = plate(&inside(file, solid, outline)?, outline);
         cells(file, "solid.0.outline.points", plate, solid.order)
+    }
+
+    fn simulate(body: &SoftBody<3>, plan: &Plan) -> Result<Trajectory, SoftError> {
+        body.simulate(plan)
+    }
+
+    fn gradient(
+        body: &SoftBody<3>,
+        plan: &Plan,
+        motion: &Trajectory,
+        seeds: Seeds,
+    ) -> Result<Gradient, SoftError> {
+        body.gradient(plan, motion, seeds, false)
     }
 }
 

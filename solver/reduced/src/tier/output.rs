@@ -1,11 +1,12 @@
 //! What commands write of a soft case: a case that runs, with the files it names.
 
-use std::fs;
 use std::io;
 use std::path::Path;
 
 use alewife_case::soft::SoftFile;
 use alewife_case::soft::spec::SoftCase;
+
+use crate::search::write_whole;
 
 /// Names of the files beside a case that is written.
 const BESIDE: [&str; 2] = ["record.csv", "mesh.msh"];
@@ -19,15 +20,15 @@ pub fn write_case(directory: &Path, file: &SoftFile, case: &SoftCase) -> io::Res
     let [record, mesh] = BESIDE;
     if let (Some(spec), Some(beside)) = (&mut case.record, &file.record) {
         record.clone_into(&mut spec.file);
-        fs::write(directory.join(record), &beside.bytes)?;
+        write_whole(&directory.join(record), &beside.bytes)?;
     }
     let given = case.solid.first_mut().and_then(|solid| solid.mesh.as_mut());
     if let (Some(spec), Some(beside)) = (given, &file.mesh) {
         mesh.clone_into(&mut spec.file);
-        fs::write(directory.join(mesh), &beside.bytes)?;
+        write_whole(&directory.join(mesh), &beside.bytes)?;
     }
     let text = toml::to_string_pretty(&case).map_err(io::Error::other)?;
-    fs::write(directory.join("case.toml"), text)
+    write_whole(&directory.join("case.toml"), text)
 }
 
 /// A number that tells a case with its files from others.

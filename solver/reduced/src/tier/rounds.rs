@@ -196,7 +196,7 @@ where
         }
         self.model.apply().map_err(|error| error.to_string())?;
         let Model { body, plan, nodes, .. } = &self.model;
-        let motion = body.simulate(plan).map_err(|error| error.to_string())?;
+        let motion = Bodies::simulate(body, plan).map_err(|error| error.to_string())?;
         let rest = body.solid.at_rest();
         let moved = |places: &[f64], node: usize| -> Vec<f64> {
             (D * node..D * (node + 1)).map(|k| places[k] - rest[k]).collect()

@@ -1,5 +1,7 @@
 //! `Equations`: the linear system of a step, by composite bodies, and its solution.
 
+use nalgebra::Matrix3;
+
 use super::cholesky::{factor, solve};
 use super::error::TreeError;
 use super::link::{Command, Drive, Joint, Link};
@@ -12,8 +14,9 @@ pub trait Inputs<T: Number> {
     /// What is asked of the joint of a link at a time (s).
     fn command(&self, time: f64, link: usize) -> Command<T>;
 
-    /// A wrench on a link about its origin, in its axes, besides all others.
-    fn wrench(&self, _time: f64, _link: usize) -> Option<Wrench<T>> {
+    /// A wrench on a link about its origin, in its axes, besides all others. `rotation` has these axes in the
+    /// world as its columns.
+    fn wrench(&self, _time: f64, _link: usize, _rotation: &Matrix3<T>) -> Option<Wrench<T>> {
         None
     }
 }
@@ -86,7 +89,9 @@ impl<T: Number> Equations<T> {
     ) {
         self.motion.follow(tree, state);
         for number in 0..tree.links.len() {
-            self.load_link(tree, number, stage, inputs.wrench(state.time, number));
+            let rotation = &self.motion.poses[number].rotation;
+            let outer = inputs.wrench(state.time, number, rotation);
+            self.load_link(tree, number, stage, outer);
         }
         for number in (1..tree.links.len()).rev() {
             let parent = tree.links[number].parent;
@@ -185,7 +190,7 @@ impl<T: Number> Equations<T> {
             }
         }
         match joint.drive {
-            Drive::Given => {}
+            Drive::Given | Drive::Rate => {}
             Drive::Effort => effort += command.effort,
             Drive::Servo { gain, limit } => {
                 let asked = gain * (command.rate - rate);

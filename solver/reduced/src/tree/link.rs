@@ -23,6 +23,8 @@ pub enum Drive<T: Number> {
     Effort,
     /// The coordinate and its rate are those commanded, whatever that takes.
     Given,
+    /// The rate is the one commanded, whatever that takes, and the coordinate its integral, to second order.
+    Rate,
     /// A servo: the effort is `gain` times the commanded rate less the joint's own, at most `limit`.
     Servo {
         /// Effort per rate (N m s/rad, N s/m).

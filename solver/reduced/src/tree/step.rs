@@ -2,6 +2,7 @@
 
 use super::equations::{Equations, Inputs, Stage, singular};
 use super::error::TreeError;
+use super::link::Drive;
 use super::spatial::{Number, Twist, real, vector};
 use super::state::State;
 use super::topology::{Root, Tree};
@@ -164,7 +165,7 @@ fn displace<T: Number>(
     state.time += step;
     state.root = state.root.moved(&root_twist(tree.root, velocities), real(step));
     for k in tree.n_root()..tree.n_velocities() {
-        if tree.given[k] {
+        if tree.links[tree.moved[k]].joint.drive == Drive::Given {
             state.coordinates[k] = inputs.command(state.time, tree.moved[k]).place;
         } else {
             state.coordinates[k] += velocities[k] * step;

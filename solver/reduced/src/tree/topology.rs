@@ -101,7 +101,7 @@ impl<T: Number> Tree<T> {
             if link.joint.kind != JointKind::Fixed {
                 self.before.push(last);
                 self.moved.push(number);
-                self.given.push(link.joint.drive == Drive::Given);
+                self.given.push(matches!(link.joint.drive, Drive::Given | Drive::Rate));
                 last = self.before.len() - 1;
             }
         }

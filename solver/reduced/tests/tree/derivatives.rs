@@ -5,6 +5,7 @@ use alewife_reduced::tree::{
     Command, Drive, Inputs, Joint, JointKind, Link, Number, Root, Scheme, Site, Stepper, Symmetric,
     Tendon, Tree, Wrench, real, vector,
 };
+use nalgebra::Matrix3;
 use num_dual::Dual64;
 
 use super::chains::{Eel, ellipsoids, moving};
@@ -106,7 +107,7 @@ impl<T: Number> Inputs<T> for Drives<T> {
         Command { rate: self.0[0], ..Command::none() }
     }
 
-    fn wrench(&self, _: f64, link: usize) -> Option<Wrench<T>> {
+    fn wrench(&self, _: f64, link: usize, _: &Matrix3<T>) -> Option<Wrench<T>> {
         let force = vector::<T>([1.0, 0.2, 0.0]) * self.0[1];
         (link == 0).then_some(Wrench { force, torque: vector([0.0, 0.1, 0.0]) })
     }

@@ -4,7 +4,7 @@ use alewife_reduced::tree::loads::{AddedMass, Ellipsoid, EllipsoidCoefficients, 
 use alewife_reduced::tree::{
     Command, Inputs, Link, Root, Scheme, Stepper, Symmetric, Tree, Twist, Wrench, vector,
 };
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// `mj_forward` -> `qfrc_fluid` of one free body, its frame that of the world: eight shapes.
 const VECTORS: &str = include_str!("mujoco.csv");
@@ -43,7 +43,7 @@ impl Inputs<f64> for Push {
         Command::none()
     }
 
-    fn wrench(&self, _: f64, _: usize) -> Option<Wrench<f64>> {
+    fn wrench(&self, _: f64, _: usize, _: &Matrix3<f64>) -> Option<Wrench<f64>> {
         Some(Wrench { force: vector([self.0, 0.0, 0.0]), torque: vector([0.0; 3]) })
     }
 }

@@ -5,6 +5,7 @@ use alewife_reduced::tree::{
     Command, Inputs, Lag, Link, Root, Scheme, State, Stepper, Symmetric, Thruster, Thrusters, Tree,
     Weight, Wrench, vector,
 };
+use nalgebra::Matrix3;
 
 const GRAVITY: f64 = 9.82;
 
@@ -39,7 +40,7 @@ impl Inputs<f64> for Push {
         Command::none()
     }
 
-    fn wrench(&self, _: f64, _: usize) -> Option<Wrench<f64>> {
+    fn wrench(&self, _: f64, _: usize, _: &Matrix3<f64>) -> Option<Wrench<f64>> {
         let [x, y, z, u, v, w] = self.0;
         Some(Wrench { force: vector([x, y, z]), torque: vector([u, v, w]) })
     }

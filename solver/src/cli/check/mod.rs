@@ -13,6 +13,7 @@ use crate::case::{
 };
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::facts::{facts, one_line};
+use crate::cli::optimise::search_line;
 use crate::cli::read::{CheckedCase, print_warnings, read_and_check};
 use crate::cli::soft;
 use crate::cli::style::{self, Ink, on_stdout, say};
@@ -70,8 +71,11 @@ fn check_one(argument: &str, settings: &[String], depth: Depth) -> Result<(), Fa
         let _ = write!(text, "\n{}\n", on_stdout(Ink::Bold, "recoil subtracted from the gaits"));
         text.extend(recoils.iter().map(|recoil| format!("  {}\n", recoil_line(recoil))));
     }
+    if let Some(line) = search_line(&file) {
+        let _ = write!(text, "\n{line}\n");
+    }
     say(text.trim_end());
-    if depth >= Depth::Mesh {
+    if depth >= Depth::Mesh && !file.case().is_reduced_only() {
         match file.case().geometry.dimensions() {
             2 => tell_of_mesh::<2>(&file, depth)?,
             _ => tell_of_mesh::<3>(&file, depth)?,

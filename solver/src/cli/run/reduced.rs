@@ -11,6 +11,7 @@ use crate::cli::style::say;
 use crate::observer::write_atomic;
 use crate::reduced::{ReducedError, simulate};
 use crate::run::Series;
+use crate::runner::recording;
 
 /// What a run by the reduced model is asked for.
 pub struct Request<'a> {
@@ -18,6 +19,8 @@ pub struct Request<'a> {
     pub settings: &'a [String],
     pub out: Option<&'a Path>,
     pub overwrite: bool,
+    /// What is asked for in it, as a session has written it down.
+    pub replay: Option<&'a Path>,
     /// Options that only the full solver has, and that were given.
     pub foreign: Vec<&'static str>,
 }
@@ -38,6 +41,14 @@ pub fn run(request: &Request<'_>) -> Result<Exit, Failure> {
         return Err(Failure::wrong(&unknown));
     }
     print_warnings(&found);
+    if let Some(recording) = recording(&file, request.replay)? {
+        for asked in &recording.asked {
+            file.model
+                .commands
+                .ask(asked)
+                .map_err(|error| Failure::new(Exit::BadCase, format!("--replay: {error}")))?;
+        }
+    }
     let out = directory(request, &file)?;
     let begun = Instant::now();
     let series = simulate(&file.model).map_err(|error| {

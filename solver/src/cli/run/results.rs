@@ -39,10 +39,17 @@ pub fn print_step_errors(outcome: &RunSummary) {
     let parts = [("velocity", errors.velocity), ("ways", errors.ways), ("forces", errors.loads)];
     let known = parts.into_iter().filter_map(|(name, part)| Some((name, part?)));
     let known: Vec<String> =
-        known.map(|(name, part)| format!("{name} {:.1e} %", 100.0 * part)).collect();
+        known.map(|(name, part)| format!("{name} {} %", two_digits(100.0 * part))).collect();
     if !known.is_empty() {
         say(&format!("left by the steps, by estimates: {}", known.join(", ")));
     }
+}
+
+/// A number with two digits, with an exponent where it is far from 1.
+fn two_digits(value: f64) -> String {
+    let rounded = format!("{value:.1e}");
+    let is_near = (1e-3..1e4).contains(&value.abs());
+    rounded.parse::<f64>().ok().filter(|_| is_near).map_or(rounded, |value| value.to_string())
 }
 
 /// Prints how the bodies ended, for a case without references.

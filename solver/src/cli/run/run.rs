@@ -12,7 +12,7 @@ use super::results::{
 use crate::case::soft::SoftFile;
 use crate::case::{CaseFile, TimeSettings, WallTime};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::read::{CheckedCase, Settings, print_warnings, read_and_check};
+use crate::cli::read::{CheckedCase, Settings, print_warnings, read_for_flow};
 use crate::cli::style::say;
 use crate::cli::{complete, soft};
 use crate::runner::{self, Finished, Outcome, RunPlan, Stopped};
@@ -114,7 +114,6 @@ impl Options {
     fn reduced(&self) -> reduced::Request<'_> {
         let given = [
             ("resume", self.resume.is_some()),
-            ("replay", self.replay.is_some()),
             ("continue", self.continues),
             ("max-walltime", self.max_walltime.is_some()),
             ("live", self.live.is_some()),
@@ -124,6 +123,7 @@ impl Options {
             settings: &self.settings.set,
             out: self.out.as_deref(),
             overwrite: self.overwrite,
+            replay: self.replay.as_deref(),
             foreign: given
                 .iter()
                 .filter(|(_, is_given)| *is_given)
@@ -192,7 +192,7 @@ fn run_soft(options: &Options) -> Result<Exit, Failure> {
 
 /// Runs a case by the full solver.
 fn run_flow(options: &Options) -> Result<Exit, Failure> {
-    let CheckedCase { file, warnings } = read_and_check(&options.case, &options.settings.set)?;
+    let CheckedCase { file, warnings } = read_for_flow(&options.case, &options.settings.set)?;
     print_warnings(&warnings);
     let plan = RunPlan { warnings, ..options.plan(file) };
     run_plan(&plan, &format!("it continues with\n  {}", options.command()))

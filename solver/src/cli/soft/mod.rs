@@ -7,9 +7,10 @@ mod run;
 mod search;
 
 pub use check::{check, show};
+pub use directory::{not_written, prepare};
 pub use rounds::{LoopOptions, rounds};
 pub use run::{Place, run};
-pub use search::{SearchOptions, seek};
+pub use search::{SearchOptions, progress_line, search_failure, seek};
 
 use alewife_reduced::tier::TierError;
 

@@ -1,9 +1,9 @@
 //! `loop`: optimisation, a robot's motion and calibration in turns.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use alewife_reduced::search::write_whole;
 use alewife_reduced::tier::{Bodies, Perturbed, Round, Rounds, SolidOf, Which, write_case};
 use clap::{Args, ValueHint};
 
@@ -88,7 +88,7 @@ where
     }
     let failed = |error: std::io::Error| not_written(&out, &error);
     write_case(&out, file, &rounds.model.case).map_err(failed)?;
-    fs::write(out.join(LAST), table).map_err(failed)?;
+    write_whole(&out.join(LAST), table).map_err(failed)?;
     say(&format!("written to {}", out.display()));
     Ok(Exit::Done)
 }

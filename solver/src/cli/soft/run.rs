@@ -1,8 +1,8 @@
 //! `run --fidelity soft`: the motion of a soft case, its series and its fields.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
+use alewife_reduced::search::write_whole;
 use alewife_reduced::tier::{
     Bodies, Compared, Model, SolidOf, compare, series, write_case, write_fields,
 };
@@ -43,8 +43,8 @@ where
     let out = place.out.clone().unwrap_or_else(default);
     let model = Model::<D>::new(file)?;
     prepare(&out, [LAST, "vtu"], place.overwrite)?;
-    let motion =
-        model.body.simulate(&model.plan).map_err(alewife_reduced::tier::TierError::from)?;
+    let motion = Bodies::simulate(&model.body, &model.plan)
+        .map_err(alewife_reduced::tier::TierError::from)?;
     let table = series(&model, &motion).map_err(alewife_reduced::tier::TierError::from)?;
     let compared = if place.compares {
         compare(&file.case, ReferenceOf::Run, &|name| table.last(name))
@@ -54,7 +54,7 @@ where
     let failed = |error: std::io::Error| not_written(&out, &error);
     write_case(&out, file, &file.case).map_err(failed)?;
     write_fields(&out, &model, &motion).map_err(failed)?;
-    fs::write(out.join("series.csv"), table.to_csv()).map_err(failed)?;
+    write_whole(&out.join("series.csv"), table.to_csv()).map_err(failed)?;
     write_comparison(&out, &compared)?;
     print(&compared);
     if compared.is_empty() {
@@ -83,5 +83,5 @@ pub fn print(compared: &[Compared]) {
 pub fn write_comparison(out: &Path, compared: &[Compared]) -> Result<(), Failure> {
     let all: Vec<_> = compared.iter().map(Compared::to_json).collect();
     let text = format!("{:#}\n", serde_json::Value::Array(all));
-    fs::write(out.join(LAST), text).map_err(|error| not_written(out, &error))
+    write_whole(&out.join(LAST), text).map_err(|error| not_written(out, &error))
 }

@@ -24,22 +24,45 @@ A search that was stopped or killed goes on when it is called again, from the ev
 search.journal, and ends with the same bits.
 
 Its directory gets case.toml, the case with what was found, which runs as it stands there, and
-report.json: each number with its bounds and how well it is determined.")]
+report.json: each number with its bounds and how well it is determined. A calibration of a reduced model
+writes calibrated.toml instead: coefficients, how well each is determined, and errors by run and quantity.")]
 pub struct SearchOptions {
     /// Which case
     #[arg(add = complete::case())]
-    case: String,
+    pub case: String,
     #[command(flatten)]
-    settings: Settings,
+    pub settings: Settings,
     /// Directory of the search; `runs/<case>-calibration` or `-optimisation` if absent
     #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     /// Replace a finished search
     #[arg(long)]
-    overwrite: bool,
+    pub overwrite: bool,
     /// No progress on the terminal
     #[arg(long, short)]
-    quiet: bool,
+    pub quiet: bool,
+}
+
+impl SearchOptions {
+    /// Which case.
+    pub fn case(&self) -> &str {
+        &self.case
+    }
+
+    /// Keys that are set.
+    pub fn set(&self) -> &[String] {
+        &self.settings.set
+    }
+
+    /// Where it is written, if that is said.
+    pub fn out(&self) -> Option<&Path> {
+        self.out.as_deref()
+    }
+
+    /// Whether what is finished is replaced.
+    pub fn overwrites(&self) -> bool {
+        self.overwrite
+    }
 }
 
 /// Seeks what a case asks for.

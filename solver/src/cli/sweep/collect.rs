@@ -47,11 +47,17 @@ pub fn write(
     out: Option<&Path>,
     quantities: &[String],
 ) -> Result<PathBuf, Failure> {
-    let quantities = if quantities.is_empty() { &directory.plan().quantities } else { quantities };
+    // Those of the sweep have been checked with its cases
+    let is_own = quantities.is_empty();
+    let quantities = if is_own { &directory.plan().quantities } else { quantities };
     let parsed = quantities.iter().map(|text| SweepQuantity::parse(text));
     let wanted: Vec<SweepQuantity> = parsed
         .collect::<Result<_, _>>()
         .map_err(|reason| Failure::new(Exit::Usage, format!("--quantity: {reason}")))?;
+    let unknown = if is_own { None } else { sweep::unknown_quantity(directory, &wanted)? };
+    if let Some(reason) = unknown {
+        return Err(Failure::new(Exit::Usage, format!("--quantity: {reason}")));
+    }
     let table = sweep::collect(directory, &wanted)?;
     let file = out.map_or_else(|| directory.path().join(TABLE_FILE), Path::to_owned);
     write_atomic(&file, &table)?;

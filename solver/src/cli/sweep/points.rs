@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::case::{Diagnostic, Severity, Sweep, at_rest};
+use crate::case::{Diagnostic, Severity, Sweep, at_rest, check_flow};
 use crate::cli::exit::Failure;
 use crate::runner::threads;
 
@@ -56,6 +56,7 @@ type PointCheck = Result<Vec<Diagnostic>, Failure>;
 fn check(sweep: &Sweep, index: usize) -> PointCheck {
     let file = sweep.case(index)?;
     let mut found = sweep.check(&file);
+    found.extend(check_flow(&file));
     if found.iter().any(|one| one.severity == Severity::Error) {
         return Err(Failure::wrong(&found));
     }

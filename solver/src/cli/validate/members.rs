@@ -1,7 +1,7 @@
 //! Which runs are compared: the cases and variants that have references.
 
 use super::super::exit::Failure;
-use super::super::read::{CheckedCase, read_and_check};
+use super::super::read::{CheckedCase, read_for_flow};
 use crate::case::{Case, CaseFile};
 
 /// A case or a variant that is to be validated.
@@ -22,7 +22,7 @@ pub fn all_members(names: &[String], only_quick: bool) -> Result<Vec<Member>, Fa
         match members_of(name, only_quick) {
             Ok(found) => {
                 for name in found {
-                    match read_and_check(&name, &[]) {
+                    match read_for_flow(&name, &[]) {
                         Ok(CheckedCase { file, .. }) => members.push(Member { name, file }),
                         Err(failure) => failures.push(failure.of(&name)),
                     }

@@ -3,6 +3,7 @@
 mod kept;
 mod members;
 mod report;
+mod searches;
 mod work;
 
 use std::path::PathBuf;
@@ -17,11 +18,12 @@ use crate::case::library;
 use crate::observer::start_log;
 use crate::runner::{SignalWatch, threads};
 use crate::validation::{
-    CaseReport, Comparison, ReportPage, comparisons_to_json, count_table, raise_coincidences,
-    summary,
+    CaseReport, Comparison, Links, ReportPage, comparisons_to_json, count_table,
+    raise_coincidences, summary,
 };
 use members::{Member, all_members};
 use report::{ReportFile, case_report};
+use searches::{Searched, Split, split};
 use work::{Place, Work};
 
 /// What `validate` is asked for.
@@ -41,6 +43,9 @@ stopped and called again; with --report its page has a section a case, written a
 The band of a value is its tolerance: one that leaves it has changed. Its evidence is \"confirmed\" where it differs
 from a reference by no more than is uncertain in both, which --uncertainty estimates, and \"consistent to\" the
 difference otherwise.
+
+Of soft cases their motion, calibration and optimisation are compared, of steady flows with [optimisation] the
+optimum, where these have references; not on pages.
 
 The exit code is 20 if a value is outside its band or could not be computed, 65 if there is
 nothing to compare with, and 75 if a signal stopped it: the cases done so far are printed then. A value
@@ -89,16 +94,21 @@ pub struct Options {
 /// Runs cases and compares them with their references.
 pub fn validate(options: &Options) -> Result<Exit, Failure> {
     let names = if options.cases.is_empty() {
-        library::list().iter().map(|case| case.name.to_owned()).collect()
+        library::list().iter().chain(library::soft()).map(|case| case.name.to_owned()).collect()
     } else {
         options.cases.clone()
     };
-    let members = all_members(&names, options.quick)?;
+    let Split { flows, mut searched } = split(&names, options.quick)?;
+    // A page has sections of runs, and kept runs are none of searches
+    if options.report.is_some() || options.markdown || options.from.is_some() {
+        searched.clear();
+    }
+    let members = all_members(&flows, options.quick)?;
     let n_threads = threads::start(options.threads)?;
     // What runs warn of is in the status of those that are kept
     start_log(None, -1)?;
 
-    if members.is_empty() {
+    if members.is_empty() && searched.is_empty() {
         let names = names.join(", ");
         let quick = if options.quick { "quick " } else { "" };
         let nothing = format!("{names}: there is no {quick}reference to compare with");
@@ -106,7 +116,12 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     }
     let file = options.report.as_ref().map(|path| ReportFile::open(path.as_deref())).transpose()?;
     let work = options.work(n_threads)?;
-    let Made { reports, end } = Validation { work, file }.make(&members);
+    let Made { mut reports, end } = Validation { work, file }.make(&members);
+    if end.is_none() {
+        for one in &searched {
+            reports.push(options.search(one, n_threads)?);
+        }
+    }
     match end {
         Some(failure) if failure.exit != Exit::Stopped => return Err(failure),
         _ => print(&reports, options),
@@ -120,6 +135,19 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
 }
 
 impl Options {
+    /// The report of what is searched.
+    fn search(&self, one: &Searched, n_threads: usize) -> Result<CaseReport, Failure> {
+        complain(&format!("{}: its motion and searches", one.name()));
+        let member = one.validate(self.out.as_deref(), n_threads)?;
+        Ok(CaseReport {
+            name: one.name(),
+            title: String::new(),
+            gist: String::new(),
+            links: Links::default(),
+            members: vec![member],
+        })
+    }
+
     fn work(&self, n_threads: usize) -> Result<Work, Failure> {
         let place = match (&self.out, &self.from) {
             (Some(out), _) => Place::Kept { out: out.clone(), by_any_program: self.any_program },

@@ -44,11 +44,9 @@ impl FieldFiles {
     /// the first step that is due.
     #[must_use]
     pub fn new(directory: &RunDirectory, case: &Case, history: Option<&History>) -> Self {
-        // Two hyphens would end a comment
-        let origin = directory.provenance().origin.line().replace("--", "- -");
         Self {
             directory: directory.path().to_owned(),
-            origin: format!("<!-- {origin} -->\n"),
+            origin: origin_comment(directory),
             schedule: Schedule::new(case.output.fields, history.map(|history| history.time)),
             precision: precision_of(case.output.precision),
             frames: history.map(|history| history.frames.clone()).unwrap_or_default(),
@@ -74,11 +72,8 @@ impl FieldFiles {
     where
         Dimension<D>: Solve<D>,
     {
-        let mut bytes = content(self.precision, time, mesh, velocity, pressure)?;
-        // After the first line, which says that this is XML
-        let first = bytes.iter().position(|&byte| byte == b'\n').map_or(0, |end| end + 1);
-        bytes.splice(first..first, self.origin.bytes());
-        Ok(bytes)
+        let bytes = content(self.precision, time, mesh, velocity, pressure)?;
+        Ok(with_origin(bytes, &self.origin))
     }
 
     /// Writes the list. It names a file only once it is there, and is itself replaced as a whole: a list without
@@ -91,20 +86,41 @@ impl FieldFiles {
         Ok(())
     }
 
-    /// The list of all frames, as ParaView wants it.
+    /// The list of all frames.
     fn collection(&self) -> String {
-        let mut text = String::from("<?xml version=\"1.0\"?>\n");
-        text += &self.origin;
-        text += "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
-        for Frame { time, file } in &self.frames {
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
-        }
-        text + "</Collection>\n</VTKFile>\n"
+        collection(&self.origin, &self.frames)
     }
 }
 
-fn precision_of(precision: Precision) -> alewife_mesh::Precision {
+/// A list of files, as ParaView wants it, with a comment that names its origin.
+pub(super) fn collection(origin: &str, frames: &[Frame]) -> String {
+    let mut text = String::from("<?xml version=\"1.0\"?>\n");
+    text += origin;
+    text +=
+        "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
+    for Frame { time, file } in frames {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
+    }
+    text + "</Collection>\n</VTKFile>\n"
+}
+
+/// A comment that names the origin of a file of a run.
+pub(super) fn origin_comment(directory: &RunDirectory) -> String {
+    // Two hyphens would end a comment
+    let origin = directory.provenance().origin.line().replace("--", "- -");
+    format!("<!-- {origin} -->\n")
+}
+
+/// A file of VTK with a comment that names its origin.
+pub(super) fn with_origin(mut bytes: Vec<u8>, origin: &str) -> Vec<u8> {
+    // After the first line, which says that this is XML
+    let first = bytes.iter().position(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+    bytes.splice(first..first, origin.bytes());
+    bytes
+}
+
+pub(super) fn precision_of(precision: Precision) -> alewife_mesh::Precision {
     match precision {
         Precision::F32 => alewife_mesh::Precision::F32,
         Precision::F64 => alewife_mesh::Precision::F64,

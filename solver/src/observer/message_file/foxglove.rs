@@ -26,6 +26,8 @@ pub enum Kind {
     Step,
     /// One body: pose, twist, loads.
     Body,
+    /// Particles that the flow carries.
+    Points,
 }
 
 impl Kind {
@@ -37,6 +39,7 @@ impl Kind {
             Self::Log => "foxglove.Log",
             Self::Step => "alewife.Step",
             Self::Body => "alewife.Body",
+            Self::Points => "foxglove.PointCloud",
         }
     }
 
@@ -55,6 +58,7 @@ impl Kind {
                 ])),
             )]),
             Self::Scene => scene_schema(),
+            Self::Points => points_schema(),
             Self::Log => object([
                 ("timestamp", timestamp_schema()),
                 ("level", json!({"type": "integer"})),
@@ -124,6 +128,20 @@ fn recoil_schema() -> Value {
     ]);
     schema["type"] = json!(["object", "null"]);
     schema
+}
+
+fn points_schema() -> Value {
+    let pose = object([("position", vector_schema()), ("orientation", rotation_schema())]);
+    let integer = || json!({"type": "integer"});
+    let field = object([("name", text_schema()), ("offset", integer()), ("type", integer())]);
+    object([
+        ("timestamp", timestamp_schema()),
+        ("frame_id", text_schema()),
+        ("pose", pose),
+        ("point_stride", integer()),
+        ("fields", list(field)),
+        ("data", json!({"type": "string", "contentEncoding": "base64"})),
+    ])
 }
 
 fn scene_schema() -> Value {

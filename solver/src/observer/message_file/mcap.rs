@@ -19,6 +19,7 @@ use serde::Serialize;
 use super::drawing::{Arm, WallBox, arms, forces, walls};
 use super::foxglove::{self, Kind, Severity};
 use super::messages::Messages;
+use super::points::point_cloud;
 use super::primitives::nanoseconds;
 use super::quantities::Group;
 use super::scene::{Shown, scene};
@@ -319,6 +320,10 @@ impl MessageFile {
         self.send_quantities(snapshot.values)?;
         let transforms = foxglove::transforms(snapshot.bodies, self.time);
         self.send("/tf", Kind::Transforms, &transforms)?;
+        for (tracer, cloud) in snapshot.case.tracer.iter().zip(snapshot.tracers) {
+            let message = point_cloud(cloud, self.time);
+            self.send(&format!("/tracers/{}", tracer.name), Kind::Points, &message)?;
+        }
         for report in snapshot.bodies {
             let message = foxglove::body(report, snapshot.step, self.time);
             self.send(&format!("/body/{}", report.name), Kind::Body, &message)?;

@@ -4,6 +4,7 @@ mod drawing;
 mod foxglove;
 mod mcap;
 pub(super) mod messages;
+mod points;
 mod primitives;
 mod quantities;
 mod scene;

@@ -206,7 +206,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    fn none() -> Self {
+    pub fn none() -> Self {
         Self {
             position: Xyz::of(&Vector3::zeros()),
             orientation: Xyzw::of(&UnitQuaternion::identity()),

@@ -139,6 +139,7 @@ fn kind_of_gait(gait: &GaitSpec) -> &'static str {
         GaitSpec::Carangiform(_) => "carangiform",
         GaitSpec::Anguilliform(_) => "anguilliform",
         GaitSpec::Flagellum(_) => "flagellum",
+        GaitSpec::Midline(_) => "midline",
         GaitSpec::Pulsating(_) => "pulsating",
         GaitSpec::Joints(_) => "joints",
     }

@@ -18,7 +18,7 @@ use crate::observer::system::{
 };
 
 /// Files of a run. Only these, and those of its folders, are ever removed.
-const FILES: [&str; 14] = [
+const FILES: [&str; 15] = [
     "case.toml",
     MESH_FILE,
     bodies::FILE,
@@ -29,6 +29,7 @@ const FILES: [&str; 14] = [
     "commands.csv",
     "run.mcap",
     "fields.pvd",
+    "tracers.pvd",
     COMPARISON_FILE,
     MESH_SIZE_FILE,
     REQUEST,
@@ -36,7 +37,7 @@ const FILES: [&str; 14] = [
 ];
 
 /// Folders of a run that hold files of its.
-const FOLDERS: [&str; 3] = ["fields", FAILURE_FOLDER, checkpoint_list::FOLDER];
+const FOLDERS: [&str; 4] = ["fields", "tracers", FAILURE_FOLDER, checkpoint_list::FOLDER];
 
 /// The comparison of a run with the references of its case.
 pub const COMPARISON_FILE: &str = "comparison.json";

@@ -55,6 +55,12 @@ pub fn check(findings: &mut Findings<'_>) {
         taken.insert(&probe.name, usize::MAX);
         check_rider(findings, &format!("probe.{index}.body"), probe);
     }
+    for (index, tracer) in case.tracer.iter().enumerate() {
+        let key = format!("tracer.{index}.name");
+        check_word(findings, &key, &tracer.name);
+        check_name(findings, &key, &tracer.name, taken.contains_key(tracer.name.as_str()));
+        taken.insert(&tracer.name, usize::MAX);
+    }
 }
 
 /// A probe rides on a body that has a frame.
@@ -123,8 +129,8 @@ fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, is_taken: bool
     if is_taken {
         findings.error(
             key,
-            format!("the name \"{name}\" is taken by a body or probe above"),
-            "give every body and every probe a name of its own",
+            format!("the name \"{name}\" is taken by a body, a probe or tracers above"),
+            "give every body, every probe and all tracers names of their own",
         );
     }
     if sides.contains(&name) || RESERVED.contains(&name) {

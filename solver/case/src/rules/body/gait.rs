@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::joints::stroke;
+use super::midline;
 use super::skin::has_rate;
 use crate::rules::Findings;
 use crate::rules::flow::boundary::check_factor;
@@ -81,6 +82,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
             anguilliform(findings, &format!("{key}.anguilliform"), gait);
         }
         GaitSpec::Flagellum(gait) => flagellum(findings, &format!("{key}.flagellum"), body, gait),
+        GaitSpec::Midline(gait) => midline::check(findings, &format!("{key}.midline"), gait),
         GaitSpec::Pulsating(gait) => pulsating(findings, &format!("{key}.pulsating"), gait),
         // The joints it is made from are checked
         GaitSpec::Joints(_) => {}

@@ -4,6 +4,7 @@ pub(super) mod bodies;
 mod gait;
 pub(super) mod joints;
 mod joints_in_space;
+mod midline;
 pub(super) mod motion;
 mod polygon;
 pub(super) mod rod;

@@ -49,6 +49,11 @@ fn is_driven(model: &Model) -> bool {
                 || field_drives(model, own)
         })
         || model.joints.iter().any(|joint| joint_drives(model, joint))
+        || case
+            .reduced
+            .iter()
+            .flat_map(|reduced| &reduced.thruster)
+            .any(|one| any(&one.drive.range()))
         || may_touch(model)
 }
 
@@ -112,6 +117,7 @@ fn gait_drives(body: &Body) -> bool {
         }
         Some(GaitSpec::Anguilliform(gait)) => gait.amplitude != 0.0,
         Some(GaitSpec::Flagellum(gait)) => gait.amplitude != 0.0,
+        Some(GaitSpec::Midline(_)) => true,
         Some(GaitSpec::Pulsating(gait)) => {
             let differs = gait.table.windows(2).any(|pair| pair[0][1] != pair[1][1]);
             gait.amplitude.is_some_and(|amplitude| amplitude != 0.0) || differs

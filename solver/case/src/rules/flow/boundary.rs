@@ -58,7 +58,7 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         DomainSpec::Box { .. } | DomainSpec::Channel { .. } => false,
         DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. } | DomainSpec::Sphere { .. } => true,
         DomainSpec::Cylinder { .. } => side == "wall" && !is_axisymmetric,
-        DomainSpec::Mesh(_) => {
+        DomainSpec::Mesh(_) | DomainSpec::Surface(_) => {
             given_mesh::check_side(findings, key, side, condition);
             check_developed(findings, key, condition);
             check_factor_of(findings, key, condition);
@@ -265,7 +265,10 @@ fn check_balance(findings: &mut Findings<'_>) {
     }
     // Flows that vary differently in time cannot balance each other.
     let mut groups: Vec<FlowGroup<'_>> = Vec::new();
-    for (side, condition) in &case.boundary {
+    let sides = case.sides();
+    // Others are refused as such
+    for (side, condition) in case.boundary.iter().filter(|(side, _)| sides.contains(&side.as_str()))
+    {
         let factor = factor_in_time(condition);
         // What is not known from the case alone is asked of its mesh, before a run
         let Some(inflow) = inflow(case, side, condition) else { return };

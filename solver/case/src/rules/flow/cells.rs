@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::rules::Findings;
-use crate::{Case, DomainSpec, Extent, Geometry, RefinementBox};
+use crate::{Case, DomainSpec, Extent, Geometry, MeshFile, RefinementBox};
 
 /// Most cells of a mesh: five million have 22 million unknowns, which take some 90 GB. What fits into
 /// the machine at hand is known only to the run, which makes a closer estimate.
@@ -112,7 +112,9 @@ fn refuse(findings: &mut Findings<'_>, key: &str, size: f64, cells: f64, power: 
 fn measure(case: &Case) -> f64 {
     use std::f64::consts::PI;
     match (&case.domain, case.geometry) {
-        (DomainSpec::Mesh(file), _) => file.measure(),
+        (DomainSpec::Mesh(_) | DomainSpec::Surface(_), _) => {
+            case.given_mesh().map_or(0.0, MeshFile::measure)
+        }
         (DomainSpec::Disc { radius, .. }, _) => PI * radius * radius,
         (DomainSpec::HalfDisc { radius, .. }, _) => 0.5 * PI * radius * radius,
         (DomainSpec::Sphere { radius, .. }, _) => 4.0 / 3.0 * PI * radius.powi(3),

@@ -83,6 +83,9 @@ struct Crossing {
 
 /// The flow over the finest cells that are asked for; none without convection.
 fn finest_crossing(model: &Model) -> Option<Crossing> {
+    if model.case.is_reduced_only() {
+        return None;
+    }
     let Case { fluid, mesh, .. } = &model.case;
     let speed = model.expected_speed().filter(|_| fluid.model == FlowModel::NavierStokes)?;
     let sizes = mesh.surface.into_iter().chain(mesh.sides.values().copied());

@@ -4,7 +4,7 @@ use alewife_mesh::SideShape;
 
 use crate::rules::Findings;
 use crate::spec::formula::numbers;
-use crate::{BoundaryCondition, Case, Geometry, MeshFile};
+use crate::{BoundaryCondition, Case, DomainSpec, Geometry, MeshFile};
 
 /// What it holds has been read; here is what does not go with the rest of the case.
 pub fn check(findings: &mut Findings<'_>) {
@@ -13,11 +13,21 @@ pub fn check(findings: &mut Findings<'_>) {
         let help = "nothing has to be done if this is meant";
         findings.warning("domain.mesh.file", note.clone(), help);
     }
+    let is_made = matches!(case.domain, DomainSpec::Surface(_));
+    if let DomainSpec::Surface(region) = &case.domain
+        && region.data.is_none()
+    {
+        findings.error(
+            "domain.surface",
+            "the surface has no triangles".to_owned(),
+            "name their file: file = \"vessel.stl\", of STL, OBJ or PLY",
+        );
+    }
     if case.sides().contains(&"axis") {
         findings.error(
-            "domain.mesh.file",
+            if is_made { "domain.surface" } else { "domain.mesh.file" },
             "a side of the mesh is named `axis`, which is that of axisymmetric domains".to_owned(),
-            "give the physical group another name",
+            "give the physical group, or the solid, another name",
         );
     }
     if case.geometry == Geometry::Planar && !model.bodies.is_empty() {
@@ -52,7 +62,7 @@ pub fn check_side(
         BoundaryCondition::Symmetry if shape.normal_axis().is_none() => findings.error(
             key,
             format!("`symmetry` holds on flat sides normal to x, y or z, and `{side}` is none"),
-            "write \"no-slip\" or \"traction-free\", or turn the mesh in Gmsh",
+            "write \"no-slip\" or \"traction-free\", or turn the region",
         ),
         BoundaryCondition::Parabolic { .. } | BoundaryCondition::Developed { .. }
             if !shape.is_flat =>

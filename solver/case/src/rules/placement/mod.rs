@@ -41,9 +41,19 @@ fn report(findings: &mut Findings<'_>, arrangement: &impl Arrangement) {
             check_probe(findings, &key, arrangement, &point, misplaced.is_empty());
         }
     }
+    for (index, tracer) in findings.case().tracer.iter().enumerate() {
+        // Bodies may have left, or come, when later ones are released
+        let is_placed = misplaced.is_empty() && tracer.start == 0.0;
+        for (nth, point) in tracer.points.iter().enumerate() {
+            let key = format!("tracer.{index}.points.{nth}");
+            if findings.is_vector(point) && findings.is_right(&format!("tracer.{index}.points")) {
+                check_probe(findings, &key, arrangement, point, is_placed);
+            }
+        }
+    }
 }
 
-/// A probe must be in the domain, and in the fluid or on the surface of a body.
+/// A probe, or a seed of tracers, must be in the domain, and in the fluid or on the surface of a body.
 fn check_probe(
     findings: &mut Findings<'_>,
     key: &str,

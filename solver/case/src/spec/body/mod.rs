@@ -25,6 +25,7 @@ use self::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
 };
+use self::given::midline::MidlineGait;
 use self::given::polygon::PolygonShape;
 use self::given::surface::SurfaceShape;
 use self::motion::by_axis::Driven;
@@ -232,6 +233,8 @@ pub enum GaitSpec {
     Anguilliform(AnguilliformGait),
     /// A wave along the tail of a flagellate.
     Flagellum(FlagellumGait),
+    /// A midline of one's own, of a fish or a flagellate.
+    Midline(Box<MidlineGait>),
     /// Area or volume of a round body as a function of time.
     Pulsating(PulsatingGait),
     /// Angles of the pivots of a chain with a skin; made from the joints of a swimmer only.
@@ -343,6 +346,7 @@ impl GaitSpec {
             Self::Carangiform(gait) => Some(gait.period),
             Self::Anguilliform(gait) => Some(gait.period),
             Self::Flagellum(gait) => Some(gait.period),
+            Self::Midline(gait) => Some(gait.period),
             Self::Pulsating(gait) => gait.period,
             Self::Joints(gait) => gait.period(),
         }

@@ -37,6 +37,7 @@ impl GaitSpec {
             Self::Squirmer(_) | Self::Pulsating(_) => &["disc", "sphere"],
             Self::Carangiform(_) | Self::Anguilliform(_) => &["fish"],
             Self::Flagellum(_) => &["flagellate"],
+            Self::Midline(_) => &["fish", "flagellate"],
             Self::Joints(_) => &["tube"],
         }
     }

@@ -55,7 +55,9 @@ impl Case {
             DomainSpec::Sphere { center, radius } => {
                 Some(Domain::Ball { center: (*center).into(), radius: *radius })
             }
-            DomainSpec::Mesh(file) => file.spatial().cloned().map(Domain::Imported),
+            DomainSpec::Mesh(_) | DomainSpec::Surface(_) => {
+                self.given_mesh()?.spatial().cloned().map(Domain::Imported)
+            }
             DomainSpec::Channel { .. } | DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. } => {
                 None
             }

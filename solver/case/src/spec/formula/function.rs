@@ -126,10 +126,12 @@ impl Function {
 
 /// A power; of small whole exponents by products, whose rounding is the same on all machines.
 fn power(base: f64, exponent: f64) -> f64 {
+    whole_exponent(exponent).map_or_else(|| base.powf(exponent), |whole| base.powi(whole))
+}
+
+/// An exponent that is whole and small.
+pub fn whole_exponent(exponent: f64) -> Option<i32> {
     const LARGEST: f64 = 64.0;
-    if exponent.fract() == 0.0 && exponent.abs() <= LARGEST {
-        #[expect(clippy::cast_possible_truncation, reason = "it is whole and small")]
-        return base.powi(exponent as i32);
-    }
-    base.powf(exponent)
+    #[expect(clippy::cast_possible_truncation, reason = "it is whole and small")]
+    (exponent.fract() == 0.0 && exponent.abs() <= LARGEST).then_some(exponent as i32)
 }

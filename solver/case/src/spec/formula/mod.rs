@@ -1,11 +1,13 @@
 //! `Formula`: a number, or an expression of x, y, z, t and the numbers of `[define]`.
 
+mod dual;
 mod function;
 mod node;
 mod parse;
 
 use std::fmt;
 
+use num_dual::DualNum;
 use serde::de::{self, Deserializer, Visitor};
 use serde::{Deserialize, Serialize};
 
@@ -38,6 +40,12 @@ impl ParsedFormula {
         self.root.at(place)
     }
 
+    /// Its value at what stands for x, y, z and t, with the derivatives these carry.
+    #[must_use]
+    pub fn dual<D: DualNum<Primitive = f64> + Copy>(&self, place: &[D; 4]) -> D {
+        self.root.dual(place)
+    }
+
     /// Whether it changes in time.
     #[must_use]
     pub fn has_time(&self) -> bool {
@@ -63,7 +71,23 @@ impl Formula {
     ) -> Result<ParsedFormula, FormulaError> {
         let root = match self {
             Self::Number(value) => Node::Number(*value),
-            Self::Expression(text) => parse::parse(text, definitions, dimensions)?,
+            Self::Expression(text) => {
+                let is_in_space = dimensions == 3;
+                let variables = if is_in_space { &parse::IN_SPACE[..] } else { &parse::IN_PLANE };
+                parse::parse(text, definitions, variables)?
+            }
+        };
+        Ok(ParsedFormula { root })
+    }
+
+    /// It, with the numbers that a case defines, where s, which stands for x, and t are known.
+    ///
+    /// # Errors
+    /// As [`Self::parsed`].
+    pub fn along_midline(&self, definitions: &Definitions) -> Result<ParsedFormula, FormulaError> {
+        let root = match self {
+            Self::Number(value) => Node::Number(*value),
+            Self::Expression(text) => parse::parse(text, definitions, &parse::ALONG_MIDLINE)?,
         };
         Ok(ParsedFormula { root })
     }
@@ -92,7 +116,7 @@ pub fn mistake_in_name(name: &str) -> Option<String> {
     if !is_word {
         return Some("a name has letters, digits and _, a letter first".to_owned());
     }
-    let is_taken = parse::VARIABLES.contains(&name)
+    let is_taken = parse::IN_SPACE.iter().any(|(known, _)| *known == name)
         || parse::CONSTANTS.iter().any(|(known, _)| *known == name)
         || Function::named(name).is_some();
     is_taken.then(|| "this name has a meaning in expressions already".to_owned())

@@ -8,8 +8,17 @@ use super::function::{Function, NAMED};
 use super::node::{Definitions, Node};
 use crate::text::nearest::nearest;
 
-/// What expressions depend on.
-pub const VARIABLES: [&str; 4] = ["x", "y", "z", "t"];
+/// A name, and the number of what it stands for.
+pub type Variable = (&'static str, usize);
+
+/// What expressions depend on in the plane.
+pub const IN_PLANE: [Variable; 3] = [("x", 0), ("y", 1), ("t", 3)];
+
+/// What they depend on in space.
+pub const IN_SPACE: [Variable; 4] = [("x", 0), ("y", 1), ("z", 2), ("t", 3)];
+
+/// What they depend on along a midline.
+pub const ALONG_MIDLINE: [Variable; 2] = [("s", 0), ("t", 3)];
 
 /// Numbers with a name.
 pub const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
@@ -147,9 +156,9 @@ fn number(rest: &[char], at: usize) -> Result<Leading, FormulaError> {
 pub fn parse(
     text: &str,
     definitions: &Definitions,
-    dimensions: usize,
+    variables: &[Variable],
 ) -> Result<Node, FormulaError> {
-    let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, definitions, dimensions };
+    let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, definitions, variables };
     let root = parser.comparison()?;
     match parser.next() {
         Placed { token: Token::End, .. } => Ok(root),
@@ -168,7 +177,7 @@ struct Parser<'a> {
     at: usize,
     depth: usize,
     definitions: &'a Definitions,
-    dimensions: usize,
+    variables: &'a [Variable],
 }
 
 impl Parser<'_> {
@@ -286,12 +295,12 @@ impl Parser<'_> {
         if let Some(function) = Function::named(name) {
             return self.call(name, column, function);
         }
-        if let Some(which) = VARIABLES.iter().position(|known| *known == name) {
-            if which == 2 && self.dimensions < 3 {
-                let accepted = "x and y are the coordinates in the plane";
-                return Err(refuse(column, "there is no `z`".to_owned(), accepted));
-            }
-            return Ok(Node::Variable(which));
+        if let Some((_, which)) = self.variables.iter().find(|(known, _)| *known == name) {
+            return Ok(Node::Variable(*which));
+        }
+        if name == "z" && self.variables == IN_PLANE {
+            let accepted = "x and y are the coordinates in the plane";
+            return Err(refuse(column, "there is no `z`".to_owned(), accepted));
         }
         if let Some((_, value)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
             return Ok(Node::Number(*value));
@@ -300,7 +309,7 @@ impl Parser<'_> {
             return Ok(Node::Number(*value));
         }
         let functions = NAMED.iter().map(|(name, _)| *name);
-        let variables = VARIABLES.iter().copied().take(self.dimensions).chain(["t", "pi", "e"]);
+        let variables = self.variables.iter().map(|(known, _)| *known).chain(["pi", "e"]);
         let own = self.definitions.keys().map(String::as_str);
         let known: Vec<&str> = own.chain(variables).chain(functions).collect();
         let near = nearest(name, &known);

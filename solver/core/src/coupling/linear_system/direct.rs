@@ -89,6 +89,16 @@ impl SystemSolver for DirectSystem {
         solved(solver, matrix, rhs, reduction, timing).map(drop)
     }
 
+    fn is_factorised(&mut self) -> bool {
+        let Self { matrix, solver, .. } = self;
+        solver.as_mut().is_some_and(|solver| solver.has_factors_of(matrix))
+    }
+
+    fn substitute(&mut self, rhs: &mut [f64], timing: &mut Timing) -> bool {
+        let Some(solver) = &mut self.solver else { return false };
+        timing.measure(Stage::Solve, || solver.substitute(rhs))
+    }
+
     fn solve_transposed(
         &mut self,
         sides: &mut [Vec<f64>],

@@ -70,6 +70,17 @@ pub(in super::super) trait SystemSolver: Send + Sync {
         timing: &mut Timing,
     ) -> Result<(), LinearError>;
 
+    /// Whether there are factors, and they are of the matrix last assembled.
+    fn is_factorised(&mut self) -> bool {
+        false
+    }
+
+    /// Overwrites a right-hand side with its solution by one substitution with the factors at hand, which may be of an
+    /// earlier matrix; false where there are none.
+    fn substitute(&mut self, _rhs: &mut [f64], _timing: &mut Timing) -> bool {
+        false
+    }
+
     /// Solves with the transpose of the matrix, in place, for some right-hand sides: by factors, or where the solver
     /// iterates and the matrix is symmetric by iterations.
     ///

@@ -25,6 +25,7 @@ impl<const D: usize> FluidSystem<D> {
         derivatives: &[Vec<f64>],
         timing: &mut Timing,
     ) -> Result<Vec<Vec<f64>>, SolveError> {
+        self.renew_tangents();
         self.linearise(at, terms, solution, timing)?;
         // That is a limit for flows
         self.linear.limit_mass(f64::INFINITY);

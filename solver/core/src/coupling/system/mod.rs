@@ -13,6 +13,7 @@ mod mobility;
 mod net_flux;
 mod nullspace;
 mod numbering;
+mod rate_response;
 mod refine;
 mod residual;
 mod rigid_unknowns;
@@ -22,6 +23,7 @@ use alewife_mesh::{Mesh, Point};
 
 use self::nullspace::TranslationNullspace;
 use self::numbering::{Numbering, blocks_of_bodies, free_velocities};
+use self::rate_response::RateResponse;
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
@@ -99,6 +101,8 @@ pub struct FluidSystem<const D: usize> {
     pub(super) cell: Option<CellIntegrals<D>>,
     /// How the flow answered to pressure gradients in the last step of Newton's method.
     pub(super) response: MeanFlowResponse,
+    /// How rates of coordinates answer to forces.
+    rate_response: RateResponse,
 }
 
 impl<const D: usize> FluidSystem<D> {
@@ -176,6 +180,7 @@ impl<const D: usize> FluidSystem<D> {
             nullspace,
             cell,
             response: MeanFlowResponse::default(),
+            rate_response: RateResponse::default(),
         }
     }
 
@@ -296,8 +301,8 @@ impl<const D: usize> FluidSystem<D> {
         }
     }
 
-    /// One Newton step: assembles and factorises the Jacobian at `solution` and returns the next
-    /// solution for a given reduced residual.
+    /// One Newton step: assembles and factorises the Jacobian at `solution`, unless factors are kept with tangents of
+    /// coordinates, and returns the next solution for a given reduced residual.
     ///
     /// Where systems are solved by iterations, what the linear equations leave of the residual is
     /// `reduction` (1), by default the tolerance of the solver.
@@ -313,13 +318,18 @@ impl<const D: usize> FluidSystem<D> {
         reduction: Option<f64>,
         timing: &mut Timing,
     ) -> Result<Solution<D>, SolveError> {
-        self.linearise(at, terms, solution, timing)?;
         let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
-        let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);
-        solved.map_err(|error| self.explain(at, error))?;
+        // The flow of another pass is near: factors of this step lead to it without another matrix
+        if !(self.rate_response.is_kept() && self.linear.substitute(&mut step, timing)) {
+            self.linearise(at, terms, solution, timing)?;
+            let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);
+            solved.map_err(|error| self.explain(at, error))?;
+            self.keep_response(at, timing)?;
+        }
         free.iter_mut().zip(&step).for_each(|(value, correction)| *value += correction);
-        self.balance_net_flux(at, terms, solution, &mut free, timing)?;
+        self.follow_coordinates(at, &step, &mut free, timing);
+        self.balance_net_flux(at, solution, &mut free, timing)?;
         self.next_solution(at, solution, free, timing)
     }
 

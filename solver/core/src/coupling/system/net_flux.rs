@@ -4,10 +4,12 @@
 //! over the fluid. Where the motion of surfaces is given, so is the source; the rates of coordinates change it, by one number
 //! more that is unknown.
 
+use alewife_mesh::{CellId, Mesh, NodeId, Point};
+
 use super::super::error::SolveError;
 use super::super::solution::Solution;
 use super::{Configuration, FluidSystem};
-use crate::flow::FlowTerms;
+use crate::space::CellValues;
 use crate::timing::Timing;
 
 impl<const D: usize> FluidSystem<D> {
@@ -18,7 +20,6 @@ impl<const D: usize> FluidSystem<D> {
     pub(super) fn balance_net_flux(
         &mut self,
         at: &Configuration<'_, D>,
-        terms: &FlowTerms<'_, D>,
         solution: &Solution<D>,
         free: &mut [f64],
         timing: &mut Timing,
@@ -26,34 +27,66 @@ impl<const D: usize> FluidSystem<D> {
         if !at.problem.is_enclosed() || self.layout.n_coordinates == 0 {
             return Ok(());
         }
-        let mut answer = at.constraints.restrict(&self.unit_source());
-        self.linear.solve(&mut answer, None, timing)?;
-        let flux = |free: &[f64]| {
-            let raw = at.constraints.expand(free);
-            let flow = Solution::from_raw(&self.layout, self.modes, &raw);
-            self.net_flux(at, terms, &flow)
+        let answer = match self.rate_response.source() {
+            Some(source) => source.to_vec(),
+            None => {
+                let mut answer = at.constraints.restrict(&self.unit_source());
+                self.linear.solve(&mut answer, None, timing)?;
+                answer
+            }
         };
-        let given = self.net_flux(at, terms, solution);
-        let found = flux(free);
-        let more: Vec<f64> = free.iter().zip(&answer).map(|(free, part)| free + part).collect();
-        let by_source = flux(&more) - found;
+        let weights = self.flux_weights(at.mesh);
+        let flux = |velocity: &dyn Fn(usize) -> f64| -> f64 {
+            let of_node = |(node, weight): &(NodeId, Point<D>)| -> f64 {
+                let raw = |axis: usize| self.layout.velocity(*node, axis);
+                (0..D).map(|axis| weight[axis] * velocity(raw(axis))).sum()
+            };
+            weights.iter().map(of_node).sum()
+        };
+        let sum = |values: &[f64], raw: usize| -> f64 {
+            let terms = at.constraints.row(raw).iter();
+            terms.map(|term| term.weight * values[term.unknown as usize]).sum()
+        };
+        let given = flux(&|raw| solution.velocity[raw / D][raw % D]);
+        let found = flux(&|raw| at.constraints.value(raw) + sum(free, raw));
+        let by_source = flux(&|raw| sum(&answer, raw));
         let part = (found - given) / (1.0 - by_source);
         free.iter_mut().zip(&answer).for_each(|(free, answer)| *free += part * answer);
         Ok(())
     }
 
-    /// The sum of the continuity equations at a solution (m3/s; m2/s planar).
-    fn net_flux(
-        &self,
-        at: &Configuration<'_, D>,
-        terms: &FlowTerms<'_, D>,
-        solution: &Solution<D>,
-    ) -> f64 {
-        self.fluid_residual(at, terms, solution)[self.layout.pressures()].iter().sum()
+    /// Weights of the velocities of nodes on bodies with coordinates in the sum of the continuity equations (m2; m planar).
+    fn flux_weights(&self, mesh: &Mesh<D>) -> Vec<(NodeId, Point<D>)> {
+        let tables = self.assembly.tables();
+        let mut weights: Vec<Option<Point<D>>> = vec![None; mesh.n_nodes()];
+        for node in self.rest_places.keys() {
+            weights[node.index()] = Some(Point::<D>::zeros());
+        }
+        let mut workspace = CellValues::default();
+        for cell in (0..mesh.n_cells()).map(CellId::new) {
+            let nodes = mesh.cell(cell);
+            if nodes.iter().all(|node| weights[node.index()].is_none()) {
+                continue;
+            }
+            workspace.for_each_point(tables, mesh, cell, |at| {
+                for (node, (gradient, value)) in nodes.iter().zip(at.grad_phi.iter().zip(at.phi)) {
+                    let Some(weight) = &mut weights[node.index()] else { continue };
+                    for axis in 0..D {
+                        let mut alone = Point::<D>::zeros();
+                        alone[axis] = *value;
+                        let divergence =
+                            gradient[axis] + tables.metric().hoop_strain(&alone, &at.position);
+                        weight[axis] -= divergence * at.dx;
+                    }
+                }
+            });
+        }
+        let all = weights.into_iter().enumerate();
+        all.filter_map(|(node, weight)| Some((NodeId::new(node), weight?))).collect()
     }
 
     /// A source of one, spread over the fluid as a net flux is, in the rows of the raw residual.
-    fn unit_source(&self) -> Vec<f64> {
+    pub(super) fn unit_source(&self) -> Vec<f64> {
         let mut raw = vec![0.0; self.layout.n_raw()];
         let pressures = self.layout.pressures();
         raw[pressures.start] = 1.0;

@@ -1,6 +1,7 @@
 //! The residual of fluid and bodies, raw and on the free unknowns.
 
 use alewife_mesh::Point;
+use nalgebra::DVector;
 
 use super::super::solution::Solution;
 use super::{Configuration, FluidSystem};
@@ -51,26 +52,28 @@ impl<const D: usize> FluidSystem<D> {
         at.constraints.restrict(&raw)
     }
 
-    /// The largest rounding in the equations of coordinates at a solution; 0 without them.
+    /// The rounding in the equations of coordinates at a solution, body by body.
     #[must_use]
-    pub fn largest_rounding(&self, at: &Configuration<'_, D>, solution: &Solution<D>) -> f64 {
-        let of_body = |equation: &FlexibleEquation| equation.rounding(&solution.rates).amax();
-        at.bodies.flexible.iter().map(of_body).fold(0.0, f64::max)
+    pub fn roundings(
+        &self,
+        at: &Configuration<'_, D>,
+        solution: &Solution<D>,
+    ) -> Vec<DVector<f64>> {
+        let of_body = |equation: &FlexibleEquation| equation.rounding(&solution.rates);
+        at.bodies.flexible.iter().map(of_body).collect()
     }
 
-    /// The largest size of a reduced residual at a solution; what coordinates have in it counts
-    /// beyond its rounding.
+    /// The largest size of a reduced residual; what coordinates have in it counts beyond its rounding.
     #[must_use]
     pub fn largest_lack(
         &self,
         at: &Configuration<'_, D>,
-        solution: &Solution<D>,
         reduced: &[f64],
+        roundings: &[DVector<f64>],
     ) -> f64 {
         let mut sizes: Vec<f64> = reduced.iter().map(|value| value.abs()).collect();
-        for equation in &at.bodies.flexible {
-            let rounding = equation.rounding(&solution.rates);
-            for (own, rounding) in rounding.iter().enumerate() {
+        for (equation, roundings) in at.bodies.flexible.iter().zip(roundings) {
+            for (own, rounding) in roundings.iter().enumerate() {
                 for term in at.constraints.row(self.layout.rate(equation.first + own)) {
                     let size = &mut sizes[term.unknown as usize];
                     *size = (*size - term.weight.abs() * rounding).max(0.0);

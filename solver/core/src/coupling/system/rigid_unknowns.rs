@@ -102,9 +102,9 @@ impl<const D: usize> FluidSystem<D> {
             }
             self.linear.add_product(&rate, &rate, joint.resistance);
         }
-        for equation in &at.bodies.flexible {
+        self.rate_response.keep_tangents(&at.bodies.flexible, rates);
+        for (equation, tangent) in at.bodies.flexible.iter().zip(self.rate_response.tangents()) {
             let row = |own: usize| at.constraints.row(layout.rate(equation.first + own));
-            let tangent = equation.tangent(rates);
             for (j, column) in tangent.column_iter().enumerate() {
                 for (i, factor) in column.iter().enumerate() {
                     self.linear.add_product(row(i), row(j), *factor);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::frame::{Frame, Frames, smooth_ramp};
+use super::frame::{Frames, by_curvature, smooth_ramp};
 use super::natural_spline::NaturalSpline;
 use super::open::{Open, stroke_at};
 use crate::case::{CarangiformGait, Stroke};
@@ -34,7 +34,7 @@ impl Carangiform {
         };
         let (beat, bend) = (stroke(&self.gait.beat, 1.0), stroke(&self.gait.bend, 0.0));
         let (has_beat, has_bend) = (self.gait.beat.is_some(), self.gait.bend.is_some());
-        let curvature = |along: f64| {
+        by_curvature(grid, |along: f64| {
             let s = along / self.length;
             let phase = (time / self.gait.period + (self.gait.phase - s)) * TAU;
             // Without strokes to the last bit as without their keys
@@ -42,32 +42,6 @@ impl Carangiform {
             let bracket = ramp * (wave + self.gait.bending);
             let bracket = if has_bend { bracket + bend } else { bracket };
             bracket * (spline.at(s) / self.length)
-        };
-        let curvatures: Vec<D> = grid.nodes.iter().map(|node| curvature(node.along)).collect();
-        let zero = D::from(0.0);
-        let angles = grid.integrate(&curvatures, zero);
-        // From head to tail the straight midline runs along -x
-        let tangent = |angle: &D| {
-            let (sin, cos) = angle.sin_cos();
-            [-cos, -sin]
-        };
-        let tangents: Vec<[D; 2]> = angles.nodes.iter().map(tangent).collect();
-        let part = |axis: usize| -> Vec<D> { tangents.iter().map(|t| t[axis]).collect() };
-        let x = grid.integrate(&part(0), zero);
-        let y = grid.integrate(&part(1), zero);
-        let one = D::from(1.0);
-        let nodes = (0..x.nodes.len()).map(|i| Frame {
-            position: [x.nodes[i], y.nodes[i]],
-            tangent: tangents[i],
-            stretch: one,
-            curvature: curvatures[i],
-        });
-        let stations = (0..x.stations.len()).map(|i| Frame {
-            position: [x.stations[i], y.stations[i]],
-            tangent: tangent(&angles.stations[i]),
-            stretch: one,
-            curvature: curvature(grid.stations[i].along),
-        });
-        Frames { nodes: nodes.collect(), stations: stations.collect() }
+        })
     }
 }

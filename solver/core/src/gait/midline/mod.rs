@@ -10,6 +10,7 @@ mod frame;
 mod joints;
 mod natural_spline;
 mod open;
+mod own;
 
 pub use anguilliform::Anguilliform;
 pub use carangiform::Carangiform;
@@ -17,6 +18,7 @@ pub use flagellum::Flagellum;
 pub use frame::{Frame, Frames};
 pub use joints::{AngleInTime, Joint, Joints};
 pub use open::Open;
+pub use own::Own;
 
 use super::grid::Grid;
 use super::number::Number;
@@ -33,6 +35,8 @@ pub enum Midline {
     Anguilliform(Anguilliform),
     /// A wave in the tail of a body with a rigid head.
     Flagellum(Flagellum),
+    /// By an expression or a table.
+    Own(Own),
     /// Bends between links.
     Joints(Joints),
 }
@@ -44,6 +48,7 @@ impl Midline {
             Self::Carangiform(Carangiform { gait, .. }) => [gait.ramp(), gait.period],
             Self::Anguilliform(Anguilliform { gait, .. }) => [gait.ramp(), gait.period],
             Self::Flagellum(Flagellum { gait, .. }) => [RAMP_TIMES * gait.ramp(), gait.period],
+            Self::Own(Own { gait, .. }) => [gait.ramp(), gait.period],
             Self::Joints(gait) => gait.cycle,
         }
     }
@@ -53,7 +58,7 @@ impl Midline {
         match self {
             Self::Carangiform(gait) => gait.open(),
             Self::Joints(gait) => gait.open.clone(),
-            Self::Anguilliform(_) | Self::Flagellum(_) => None,
+            Self::Anguilliform(_) | Self::Flagellum(_) | Self::Own(_) => None,
         }
     }
 
@@ -73,6 +78,9 @@ impl Midline {
             }
             Self::Anguilliform(_) => Vec::new(),
             Self::Flagellum(gait) => vec![gait.head],
+            Self::Own(Own { length, gait, .. }) => {
+                gait.knots().iter().map(|position| position * length).collect()
+            }
             Self::Joints(gait) => gait.discontinuities(),
         }
     }
@@ -82,6 +90,7 @@ impl Midline {
         match self {
             Self::Carangiform(gait) => gait.frames(grid, time),
             Self::Anguilliform(gait) => gait.frames(grid, time),
+            Self::Own(gait) => gait.frames(grid, time),
             Self::Joints(gait) => gait.frames(grid, time),
             Self::Flagellum(tail) if tail.gait.inextensible => tail.inextensible_frames(grid, time),
             Self::Flagellum(tail) => {

@@ -180,6 +180,7 @@ fn slip(body: &Body, metric: Metric, pose: &Pose) -> Option<Box<dyn Gait>> {
             GaitSpec::Carangiform(_)
             | GaitSpec::Anguilliform(_)
             | GaitSpec::Flagellum(_)
+            | GaitSpec::Midline(_)
             | GaitSpec::Pulsating(_)
             | GaitSpec::Joints(_),
         ) => return None,

@@ -12,6 +12,7 @@ mod shape_motion;
 mod sides;
 mod sizing;
 mod solid;
+mod tracers;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 
@@ -28,6 +29,7 @@ use self::sides::side;
 pub(super) use self::sizing::limits;
 pub use self::sizing::sizing;
 pub(super) use self::solid::no_solid;
+pub use self::tracers::Tracers;
 use super::RunError;
 use crate::body::{Orientation, Pose};
 use crate::case::{

@@ -7,7 +7,7 @@ use crate::case::{
 };
 use crate::coupling::ShapeError;
 use crate::gait::{
-    AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Open, Pulse,
+    AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Open, Own, Pulse,
     PulseLaw, RecoilMotion, ShapeMotion, SlenderBody,
 };
 use crate::run::RunError;
@@ -62,6 +62,15 @@ pub fn shape_motion(
                 tail: body.tail_length,
                 gait: gait.clone(),
             })
+        }
+        (Some(GaitSpec::Midline(gait)), ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_)) => {
+            let length = match &body.shape {
+                ShapeSpec::Flagellate(own) => 2.0 * own.head[0] + own.tail_length,
+                ShapeSpec::Fish(fish) => fish.length,
+                _ => return Err(refuse("its gait does not fit its shape")),
+            };
+            let law = gait.law().map_err(|error| refuse(&error.to_string()))?;
+            Midline::Own(Own { length, gait: (**gait).clone(), law })
         }
         (Some(GaitSpec::Joints(gait)), ShapeSpec::Tube(_)) => Midline::Joints(joints(gait)),
         _ => return Err(refuse("its gait does not fit its shape")),

@@ -11,6 +11,7 @@ mod probes;
 mod sides;
 mod steady;
 mod swimmers;
+mod tracers;
 mod value;
 
 use alewife_mesh::{Mesh, Point};
@@ -25,6 +26,7 @@ use self::probes::{ProbePlaces, Probes};
 use self::sides::{measure_sides, side_names};
 pub use self::steady::{BodiesInFlow, steady_value};
 use self::swimmers::SwimmerMeasurement;
+use self::tracers::tracer_value;
 use super::RunError;
 use super::simulation::{CellCrossing, Simulation};
 use super::snapshot::BodyReport;
@@ -32,6 +34,7 @@ use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
 use crate::coupling::{Group, Problem, SurfaceLoads};
 use crate::state::State;
 use crate::timing::Stage;
+use crate::tracer::Cloud;
 
 /// Measures a run; made once a mesh.
 pub(super) struct Measure<const D: usize> {
@@ -155,6 +158,7 @@ impl<const D: usize> Measure<D> {
             })
             .collect();
         let probes = self.probes.values(state);
+        let tallies: Vec<_> = state.tracers.iter().map(Cloud::tally).collect();
         let rods: Vec<_> = (0..problem.bodies.len())
             .map(|body| RodReport::of(problem, state, &loads.bodies, body))
             .collect();
@@ -172,6 +176,7 @@ impl<const D: usize> Measure<D> {
             Source::Joint(joint, quantity) => joint_value(&joints[joint], quantity),
             Source::Swimmer(swimmer, quantity) => swimmers[swimmer].value(quantity),
             Source::Probe(probe, quantity) => probes[probe].value(quantity),
+            Source::Tracer(tracer, quantity) => tracer_value(&tallies[tracer], quantity),
             Source::Flow(quantity) => flow.value(quantity),
             Source::Side(side, quantity) => sides[side].value(quantity),
         };

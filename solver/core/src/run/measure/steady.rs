@@ -33,7 +33,11 @@ pub fn steady_value<const D: usize>(
         Source::Swimmer(swimmer, quantity) => {
             of_swimmer(quantity, bodies, &bodies.problem.groups[swimmer])?
         }
-        Source::Joint(..) | Source::Probe(..) | Source::Flow(_) | Source::Side(..) => return None,
+        Source::Joint(..)
+        | Source::Probe(..)
+        | Source::Tracer(..)
+        | Source::Flow(_)
+        | Source::Side(..) => return None,
     };
     Some(value.component(column.component))
 }

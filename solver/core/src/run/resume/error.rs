@@ -7,7 +7,7 @@ use crate::coupling::ShapeError;
 use crate::motion::RemeshError;
 
 /// Version of what is saved; others are refused.
-pub const VERSION: u32 = 11;
+pub const VERSION: u32 = 12;
 
 /// Why a run cannot resume from a state.
 #[derive(Debug, Error)]

@@ -144,6 +144,9 @@ impl<const D: usize> SavedState<D> {
         let boundaries = simulation.state.mesh.boundaries.clone();
         self.check_case(case)?;
         self.check_consistent(problem, boundaries.len())?;
+        if self.state.tracers.len() != case.tracer.len() {
+            return Err(ResumeError::Inconsistent.into());
+        }
         let mut state = self.state.clone();
         state.complete_mesh(&boundaries);
         simulation.moving_mesh = match (&self.reference, &simulation.moving_mesh) {

@@ -3,10 +3,13 @@
 use alewife_mesh::Point;
 
 mod steady;
+mod tangents;
 
 pub use steady::{
     SteadyFailure, SteadyFlow, SteadyTask, solve_steady, steady_convection, steady_terms,
 };
+
+pub(super) use tangents::Tangents;
 
 use super::error::FlowError;
 use super::stepper::Step;
@@ -69,6 +72,8 @@ pub(super) struct Criterion {
     pub divergence: Option<f64>,
     /// How far iterations solve the linear systems.
     pub forcing: Forcing,
+    /// For how long derivatives of the equations of coordinates are kept, with the factors they are in.
+    pub tangents: Tangents,
 }
 
 /// The forcing term of inexact Newton methods: the part of a residual that the solution of a linear system by
@@ -123,6 +128,7 @@ impl Criterion {
             is_damped: false,
             divergence: None,
             forcing: if is_linear { Forcing::OfStep { first, least } } else { Forcing::Inexact },
+            tangents: if first.is_some() { Tangents::OfStep } else { Tangents::OfPass },
         }
     }
 }
@@ -200,6 +206,9 @@ pub(super) fn newton<const D: usize>(
 ) -> Result<Flow<D>, NewtonFailure<D>> {
     let mut solution = system.with_given_gradients(at, start);
     let mut progress = Progress::new(criterion);
+    // What rounding is does not change as the solution is found
+    let roundings = system.roundings(at, &solution);
+    let rounding = roundings.iter().map(|of_body| of_body.amax()).fold(0.0, f64::max);
     loop {
         let iterations = progress.iterations;
         let convecting_velocity = equations.convecting_velocity(&solution);
@@ -212,9 +221,9 @@ pub(super) fn newton<const D: usize>(
             return Ok(Flow { solution, residual, iterations, scale: progress.scale() });
         }
         let reduced = system.reduced_residual(at, &solution, &residual);
-        let size = system.largest_lack(at, &solution, &reduced);
+        let size = system.largest_lack(at, &reduced, &roundings);
         // What stiff bodies round to moves them, and the fluid with them: nothing smaller is a measure
-        let least = system.mean_force(&solution).max(system.largest_rounding(at, &solution));
+        let least = system.mean_force(&solution).max(rounding);
         let relative = progress.relative(size, least);
         equations.on_iteration(iterations, relative);
         let scale = progress.scale();
@@ -233,6 +242,9 @@ pub(super) fn newton<const D: usize>(
         if equations.wants_stop() {
             let end = end(solution, iterations);
             return Err(NewtonFailure { reason: NewtonStop::Requested, end });
+        }
+        if criterion.tangents.are_renewed(iterations) || !system.keeps_factors() {
+            system.renew_tangents();
         }
         let forcing = Some(progress.forcing(relative));
         let next = match system.newton_step(at, &terms, &solution, &reduced, forcing, timing) {

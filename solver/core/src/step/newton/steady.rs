@@ -8,8 +8,8 @@
 use alewife_mesh::Point;
 
 use super::{
-    Criterion, Flow, FlowEquations, Forcing, Iterate, NewtonFailure, NewtonStop, flow_residual,
-    newton,
+    Criterion, Flow, FlowEquations, Forcing, Iterate, NewtonFailure, NewtonStop, Tangents,
+    flow_residual, newton,
 };
 use crate::case::Steady;
 use crate::coupling::{BodiesAt, Configuration, Problem, RigidBodyEquations, Solution, SolveError};
@@ -281,6 +281,7 @@ impl<const D: usize> Continuation<'_, D> {
             is_damped: !is_linear && !is_newtonian,
             divergence: Some(DIVERGENCE),
             forcing: if is_linear { Forcing::ToTolerance } else { Forcing::Inexact },
+            tangents: Tangents::OfSystem,
         };
         let equations = SteadyEquations { problem: self.problem, parts, stop: self.task.stop };
         let Workspace { system, timing, .. } = work;

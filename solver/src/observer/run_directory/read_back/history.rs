@@ -30,6 +30,8 @@ pub struct History {
     pub series: Series,
     /// The files in `fields/`; none of them if the run continues in another directory.
     pub frames: Vec<Frame>,
+    /// The files in `tracers/`, likewise.
+    pub tracer_frames: Vec<Frame>,
     /// The directory it wrote to.
     pub directory: PathBuf,
     /// Restarts at the step of the state so far, this one included.
@@ -51,16 +53,20 @@ impl History {
         let n_rows = series.times.partition_point(|&then| then <= time);
         series.times.truncate(n_rows);
         series.rows.truncate(n_rows);
-        let frames = frames(directory)?.into_iter().filter(|frame| {
+        let is_kept = |frame: &Frame| {
             let is_step = !frame.file.ends_with("stopped.vtu");
             frame.time <= time && is_step && directory.join(&frame.file).is_file()
-        });
-        let (frames, directory) = (frames.collect(), directory.to_owned());
+        };
+        let frames = frames(directory)?.into_iter().filter(is_kept).collect();
+        let tracer_frames = listed(directory, "tracers.pvd")?;
+        let tracer_frames = tracer_frames.into_iter().filter(is_kept).collect();
+        let directory = directory.to_owned();
         Ok(Self {
             step,
             time,
             series,
             frames,
+            tracer_frames,
             directory,
             restarts: Restarts::default(),
             longest_checkpoint: None,
@@ -93,7 +99,12 @@ impl History {
 /// # Errors
 /// When it cannot be read.
 pub fn frames(directory: &Path) -> io::Result<Vec<Frame>> {
-    Ok(read_text(&directory.join("fields.pvd"))?.lines().filter_map(frame).collect())
+    listed(directory, "fields.pvd")
+}
+
+/// The files that a list in a directory names; none where there is no list.
+fn listed(directory: &Path, list: &str) -> io::Result<Vec<Frame>> {
+    Ok(read_text(&directory.join(list))?.lines().filter_map(frame).collect())
 }
 
 /// The text of a file, empty if there is none.

@@ -58,6 +58,7 @@ impl Body {
                 GaitSpec::Carangiform(_)
                 | GaitSpec::Anguilliform(_)
                 | GaitSpec::Flagellum(_)
+                | GaitSpec::Midline(_)
                 | GaitSpec::Pulsating(_)
                 | GaitSpec::Joints(_),
             ) => true,

@@ -1,7 +1,10 @@
 //! Types a case: all unknown keys at once, and what only the rest of the file tells of a mistake.
 
+mod form;
+
 use serde::Deserialize;
 
+use self::form::{holder, written};
 use super::reference_rows::REFERENCES;
 use super::schema;
 use crate::Case;
@@ -40,6 +43,8 @@ pub fn typed(root: &TomlNode) -> Result<Case, CaseError> {
         diagnostics.push(diagnostic);
         let (table, to) = if is_misplaced(&root, &path, key) {
             ("", Some(key.as_str()))
+        } else if holder(&path, &[key]).is_some() {
+            (path.as_str(), None)
         } else {
             let word = meant(key, accepted).map(|meant| meant.word);
             renamed.extend(word.map(|word| inside(&path, word)));
@@ -63,12 +68,25 @@ fn told(root: &TomlNode, error: &TypeError) -> Diagnostic {
     let at = root.get(&path);
     let (key, help) = match error.mismatch() {
         Mismatch::UnknownKey { key, .. } => {
-            let help = is_misplaced(root, &path, key).then(|| misplaced(at, key));
+            let is_misplaced = is_misplaced(root, &path, key);
+            let help =
+                is_misplaced.then(|| misplaced(at, key)).or_else(|| of_table_below(&path, key));
             (inside(&path, key), help)
         }
         Mismatch::MissingKey(key) => (inside(&path, key), what_to_add(root, &path, key)),
         Mismatch::WrongType { wanted, .. } => {
             let help = at.and_then(|node| brackets(node, &path, wanted));
+            let by_schema = || at.and_then(|node| written(&path, number(node).as_deref()));
+            let help = help.or_else(|| by_schema().filter(|_| wanted == "a table"));
+            (path, help)
+        }
+        Mismatch::NoAlternative { .. } => {
+            let help =
+                at.and_then(|node| keys_of_one(node, &path)).or_else(|| written(&path, None));
+            (path, help)
+        }
+        Mismatch::UnknownAlternative { found, .. } if holder(&path, &[found]).is_some() => {
+            let help = of_table_below(&path, found);
             (path, help)
         }
         Mismatch::UnknownAlternative { found, accepted } if path.ends_with("shape") => {
@@ -87,6 +105,29 @@ fn told(root: &TomlNode, error: &TypeError) -> Diagnostic {
         message: error.message(),
         help: help.unwrap_or_else(|| error.help()),
         location: error.origin().map(Origin::location),
+    }
+}
+
+/// Where a key is to be written that a table below its own has.
+fn of_table_below(path: &str, key: &str) -> Option<String> {
+    let own = inside(path, holder(path, &[key])?);
+    Some(format!("`{key}` is a key of `{own}`: write {own}.{key} = ..., or put it below [{own}]"))
+}
+
+/// What to write for a table whose keys are all those of one of its alternatives.
+fn keys_of_one(node: &TomlNode, path: &str) -> Option<String> {
+    let keys: Vec<&str> = node.table()?.keys().map(String::as_str).collect();
+    let own = inside(path, holder(path, &keys).filter(|_| !keys.is_empty())?);
+    let list = keys.join("`, `");
+    Some(format!("`{list}` are keys of `{own}`: write [{own}] above them, or {own} = {{ ... }}"))
+}
+
+/// A number as it is written.
+fn number(node: &TomlNode) -> Option<String> {
+    match &node.value {
+        TomlValue::Integer(number) => Some(number.to_string()),
+        TomlValue::Float(number) => Some(format!("{number:?}")),
+        _ => None,
     }
 }
 

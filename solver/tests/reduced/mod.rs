@@ -1,6 +1,12 @@
 //! Cases by their reduced model: ways, names, balances, what is refused, and the command.
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
 
+mod calibration;
+mod guided;
+mod mutations;
+mod tables;
+mod vehicle;
+
 use std::process::Command;
 
 use alewife::case::{Case, CaseFile, Severity, check, check_reduced, known_quantities};
@@ -155,4 +161,37 @@ fn the_command_writes_a_series_once() {
     assert!(code == Some(2) && told.contains("--continue"), "{told}");
     let (code, told) = run(&["--set", "contact.barrier={ range = 0.01, stiffness = 1.0 }"]);
     assert!(code == Some(65) && told.contains("contact"), "{told}");
+}
+
+/// Targets come through limits and filter as in the full solver: the joint is where its command is.
+#[test]
+fn commands_are_repeated_from_a_recording() {
+    let place = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let joint = "swimmer.0.kind.chain.joints.4={ bent.angle.command = { limits = [-0.5, 0.5], filter = 0.1 } }";
+        let mut command = Command::new(env!("CARGO_BIN_EXE_alewife"));
+        command.args(["run", "robot-eel", "--fidelity", "reduced", "--out", "eel", "--set", joint]);
+        let output = command.args(arguments).current_dir(place.path()).output().unwrap();
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, told) = run(&[]);
+    assert!(code == Some(65) && told.contains("--replay"), "{told}");
+    let rows = "time,command,target\n0.0,eel.joint.5,0.3\n1.0,eel.joint.5,-2.0\n2.0,,\n";
+    std::fs::write(place.path().join("commands.csv"), rows).unwrap();
+    let (code, told) = run(&["--replay", "commands.csv"]);
+    assert_eq!(code, Some(0), "{told}");
+    let text = std::fs::read_to_string(place.path().join("eel/series.csv")).unwrap();
+    let nth = text.lines().next().unwrap().split(',').position(|name| name == "eel-6.joint.angle");
+    let number = |row: &str, nth: usize| row.split(',').nth(nth).unwrap().parse::<f64>().unwrap();
+    let rows: Vec<[f64; 2]> =
+        text.lines().skip(1).map(|row| [number(row, 0), number(row, nth.unwrap())]).collect();
+    let at = |time: f64| 0.3 * (1.0 - (1.0 + time / 0.1) * (-time / 0.1).exp());
+    for [time, angle] in rows.iter().filter(|[time, _]| *time <= 1.0) {
+        assert!((angle - at(*time)).abs() < 1e-12, "{time} {angle}");
+    }
+    assert!(rows.last().is_some_and(|[_, angle]| (angle + 0.5).abs() < 1e-3));
+    let rows = "time,command,target\n0.0,eel.joint.6,0.3\n";
+    std::fs::write(place.path().join("commands.csv"), rows).unwrap();
+    let (code, told) = run(&["--overwrite", "--replay", "commands.csv"]);
+    assert!(code == Some(65) && told.contains("eel.joint.5"), "{told}");
 }

@@ -1,0 +1,202 @@
+//! Problems of `[calibration]`, and of a calibrated file in a case it was not found for.
+
+use super::Findings;
+use super::reduced::is_a_body;
+use crate::text::nearest::nearest;
+use crate::{CalibratedSpec, CalibrationSpec, FitBy, Geometry, RecordSpec, TimeSettings};
+
+/// What a record may have of a body.
+const TRACKS: [&str; 4] = ["x", "y", "z", "angle"];
+
+pub fn check(findings: &mut Findings<'_>) {
+    if let Some(spec) = &findings.case().calibration {
+        coefficients(findings, spec);
+        for (index, name) in spec.tracks.iter().enumerate() {
+            track(findings, &format!("calibration.tracks.{index}"), name);
+        }
+        records(findings, spec);
+    }
+    let reduced = findings.case().reduced.as_ref();
+    if let Some(calibrated) = reduced.and_then(|reduced| reduced.calibrated.as_ref()) {
+        origin(findings, calibrated);
+    }
+}
+
+/// What is found has a name, a start and bounds about it.
+fn coefficients(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
+    let reduced = findings.case().reduced_model();
+    let known: Vec<&str> = reduced.loads.coefficients().iter().map(|one| one.name).collect();
+    let law = reduced.loads.name();
+    if spec.fit.is_empty() {
+        let help = format!("coefficients of \"{law}\": {}", known.join(", "));
+        findings.error("calibration.fit", "nothing is to be found".to_owned(), &help);
+    }
+    for (index, name) in spec.fit.iter().enumerate() {
+        let key = format!("calibration.fit.{index}");
+        let Some(nth) = known.iter().position(|one| one == name) else {
+            let close = nearest(name, &known)
+                .map_or(String::new(), |near| format!("; did you mean {near}?"));
+            let help = format!("coefficients: {}{close}", known.join(", "));
+            findings.error(&key, format!("the law \"{law}\" has no coefficient \"{name}\""), &help);
+            continue;
+        };
+        if spec.fit[..index].contains(name) {
+            findings.error(&key, format!("\"{name}\" is found twice"), "leave one out");
+        }
+        let [lower, upper] = spec.bounds_of(name);
+        let start = reduced.coefficients_of("").get(nth).copied().unwrap_or_default();
+        let key = format!("calibration.bounds.{name}");
+        if !(lower.is_finite() && upper.is_finite() && 0.0 <= lower && lower < upper) {
+            let message = format!("the bounds of \"{name}\" are {lower} and {upper}");
+            findings.error(&key, message, "write [smallest, largest], 0 or above");
+        } else if !(lower..=upper).contains(&start) {
+            findings.error(
+                &key,
+                format!("\"{name}\" starts at {start}, which is not between {lower} and {upper}"),
+                &format!("widen them, or write another reduced.coefficients.{name}"),
+            );
+        }
+    }
+    for name in spec.bounds.keys().filter(|name| !spec.fit.contains(*name)) {
+        let message = format!("\"{name}\" has bounds, and is not found");
+        let help = "add it to calibration.fit, or leave them out";
+        findings.error(&format!("calibration.bounds.{name}"), message, help);
+    }
+    if !matches!(findings.case().time, TimeSettings::Unsteady(_)) {
+        let message = "a steady flow has no motion to be fitted to".to_owned();
+        findings.error("time.steady", message, "write [time.unsteady]");
+    }
+}
+
+/// A track is of a body.
+fn track(findings: &mut Findings<'_>, key: &str, name: &str) {
+    let Some((body, what)) = name.rsplit_once('.').filter(|(_, what)| TRACKS.contains(what)) else {
+        let message = format!("\"{name}\" is no track");
+        return findings.error(key, message, "NAME.x, NAME.y, NAME.z or NAME.angle of a body");
+    };
+    let is_spatial = findings.case().geometry == Geometry::Spatial;
+    if (what == "z") != is_spatial && matches!(what, "z" | "angle") {
+        let message = format!("a body has no track \"{what}\" in this geometry");
+        return findings.error(key, message, "x, y and angle in the plane, x, y and z in space");
+    }
+    is_a_body(findings, key, body);
+}
+
+fn records(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
+    if !spec.from.iter().any(|one| !one.holdout) {
+        let message = "there is nothing to be fitted to".to_owned();
+        findings.error("calibration.from", message, "add [[calibration.from]] without `holdout`");
+    }
+    for (index, record) in spec.from.iter().enumerate() {
+        let key = format!("calibration.from.{index}");
+        match (&record.run, &record.csv) {
+            (Some(_), None) => of_run(findings, &key, record),
+            (None, Some(_)) => {
+                if spec.fits() != FitBy::Tracks && !record.holdout {
+                    let message = "a CSV file has no loads to be fitted to".to_owned();
+                    findings.error(&format!("{key}.csv"), message, "write by = \"tracks\"");
+                }
+                of_file(findings, &key, record);
+            }
+            _ => findings.error(
+                &key,
+                "it is from a run or from a CSV file".to_owned(),
+                "write one of `run` and `csv`",
+            ),
+        }
+    }
+}
+
+/// What a run says itself is not said again.
+fn of_run(findings: &mut Findings<'_>, key: &str, record: &RecordSpec) {
+    let said = [
+        ("time", record.time.is_some()),
+        ("rate", record.rate.is_some()),
+        ("columns", !record.columns.is_empty()),
+        ("units", !record.units.is_empty()),
+        ("frame", record.frame.is_some()),
+        ("set", !record.set.is_empty()),
+    ];
+    for (name, _) in said.into_iter().filter(|(_, is_said)| *is_said) {
+        let message = format!("`{name}` is of CSV files: a run says itself how it was made");
+        findings.error(&format!("{key}.{name}"), message, "leave it out");
+    }
+}
+
+fn of_file(findings: &mut Findings<'_>, key: &str, record: &RecordSpec) {
+    if record.time.is_some() == record.rate.is_some() {
+        let message = "the times of a record are a column or a rate".to_owned();
+        findings.error(key, message, "write one of `time` and `rate`");
+    }
+    if record.rate.is_some_and(|rate| !(rate.is_finite() && rate > 0.0)) {
+        let message = "the rate is not above 0".to_owned();
+        findings.error(&format!("{key}.rate"), message, "write rows a second");
+    }
+    if record.columns.is_empty() {
+        let message = "no column says where a body is".to_owned();
+        let help = "write columns = { \"NAME.x\" = \"COLUMN\", ... }";
+        findings.error(&format!("{key}.columns"), message, help);
+    }
+    for name in record.columns.keys() {
+        track(findings, &format!("{key}.columns.{name}"), name);
+    }
+    for (name, unit) in &record.units {
+        let at = format!("{key}.units.{name}");
+        if !record.columns.contains_key(name) {
+            let message = format!("\"{name}\" has a unit and no column");
+            findings.error(&at, message, "add it to `columns`, or leave it out");
+        } else if !(unit.is_finite() && *unit != 0.0) {
+            findings.error(&at, format!("the unit is {unit}"), "a number that is not 0");
+        }
+    }
+    if record.frame.is_some() && findings.case().geometry == Geometry::Spatial {
+        let message = "a frame is of planar records".to_owned();
+        findings.error(&format!("{key}.frame"), message, "leave it out");
+    }
+}
+
+/// A calibrated file is of this swimmer, and told of where its gait is another.
+fn origin(findings: &mut Findings<'_>, calibrated: &CalibratedSpec) {
+    let model = findings.model();
+    let bodies: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+    if calibrated.bodies != bodies {
+        findings.error(
+            "reduced.calibrated.file",
+            format!(
+                "{} was found for the bodies {}, and the case has {}",
+                calibrated.file,
+                calibrated.bodies.join(", "),
+                bodies.join(", ")
+            ),
+            "calibrate this case, or write the coefficients themselves into [reduced]",
+        );
+        return;
+    }
+    let strokes = model.joints.iter().filter_map(|joint| joint.kind.stroke());
+    let (mut periods, mut amplitudes) = (Vec::new(), Vec::new());
+    for stroke in strokes {
+        periods.extend(stroke.period());
+        let [least, most] = stroke.range();
+        amplitudes.push(0.5 * (most - least));
+    }
+    let viscosity = findings.case().reference_viscosity() / findings.case().fluid.density;
+    let compared = [
+        ("period", calibrated.periods, periods),
+        ("amplitude", calibrated.amplitudes, amplitudes),
+        ("kinematic viscosity", calibrated.viscosities, vec![viscosity]),
+    ];
+    for (what, range, values) in compared {
+        let Some([least, most]) = range else { continue };
+        let (lower, upper) = (least * (1.0 - 1e-9), most * (1.0 + 1e-9));
+        if let Some(value) = values.iter().find(|one| !(lower..=upper).contains(*one)) {
+            findings.warning(
+                "reduced.calibrated.file",
+                format!(
+                    "{} was fitted at a {what} of {least} to {most}, and the case has {value}",
+                    calibrated.file
+                ),
+                "compare with a run of the full solver, or calibrate with runs about it",
+            );
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Problems of `[optimisation]`: what is made large, by which numbers, and what the optimum is compared with.
+
+mod constant;
+mod parameters;
+
+use self::constant::check_constant;
+use super::Findings;
+use super::references::check_quantity;
+use crate::quantity::{differentiable_columns, known_quantities};
+use crate::read::CaseFile;
+use crate::spec::formula::mistake_in_name;
+use crate::text::nearest::nearest;
+use crate::{FlowObjective, FlowOptimisation, ObjectiveExpression, TimeSettings};
+
+pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
+    let Some(spec) = &findings.case().optimisation else { return };
+    if let TimeSettings::Unsteady(_) = findings.case().time {
+        findings.error(
+            "optimisation",
+            "searches follow gradients, which are those of steady flows, and this one is not steady".to_owned(),
+            "write [time.steady], or leave out [optimisation]",
+        );
+    }
+    check_objective(findings, &spec.objective);
+    parameters::check(findings, file, spec);
+    if spec.search.evaluations == 0 {
+        let key = "optimisation.search.evaluations";
+        findings.error(key, format!("`{key}` is 0"), "write 1 or more");
+    }
+    check_references(findings, file, spec);
+}
+
+/// Whether gradients are known of all quantities.
+fn check_objective(findings: &mut Findings<'_>, objective: &FlowObjective) {
+    let known = known_quantities(findings.model());
+    let columns = differentiable_columns(findings.model());
+    let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+    for part in objective.quantities() {
+        let key = format!("optimisation.objective.{}", part.key);
+        if names.contains(&part.quantity) {
+            continue;
+        }
+        if !known.iter().any(|name| name == part.quantity) {
+            check_quantity(findings, &key, part.quantity, &known);
+            continue;
+        }
+        findings.error(
+            &key,
+            format!("the gradient of `{}` is not known", part.quantity),
+            &format!(
+                "gradients are those of loads, powers and velocities of bodies and swimmers: {}",
+                names.join(", ")
+            ),
+        );
+    }
+    if let FlowObjective::Expression(expression) = objective {
+        check_expression(findings, expression);
+    }
+}
+
+/// Whether an objective is understood.
+fn check_expression(findings: &mut Findings<'_>, expression: &ObjectiveExpression) {
+    let mut known = findings.case().define.clone();
+    for name in expression.quantities.keys() {
+        let key = format!("optimisation.objective.expression.quantities.{name}");
+        let taken = "a number of [define] has this name";
+        let is_taken = known.contains_key(name).then(|| taken.to_owned());
+        if let Some(mistake) = mistake_in_name(name).or(is_taken) {
+            let message = format!("a quantity cannot be called `{name}` in an expression");
+            findings.error(&key, message, &mistake);
+        }
+        known.insert(name.clone(), 1.0);
+    }
+    check_constant(findings, "optimisation.objective.expression.value", &expression.value, &known);
+}
+
+fn check_references(findings: &mut Findings<'_>, file: &CaseFile, spec: &FlowOptimisation) {
+    let mut known: Vec<String> = vec!["objective".to_owned()];
+    known.extend(file.sought().into_iter().map(|number| number.name));
+    known.extend(spec.objective.quantities().iter().map(|part| part.quantity.to_owned()));
+    for (index, reference) in spec.reference.iter().enumerate() {
+        let at = format!("optimisation.reference.{index}");
+        if !known.contains(&reference.quantity) {
+            let meant = nearest(&reference.quantity, &known);
+            let meant = meant.map(|name| format!("did you mean `{name}`? ")).unwrap_or_default();
+            findings.error(
+                &format!("{at}.quantity"),
+                format!("an optimum has no `{}`", reference.quantity),
+                &format!("{meant}it has {}", known.join(", ")),
+            );
+        }
+        if reference.relative.is_some() == reference.absolute.is_some() {
+            findings.error(
+                &at,
+                format!("the reference for `{}` has no single tolerance", reference.quantity),
+                "write one of `relative` and `absolute`",
+            );
+        } else if reference.relative.is_some() && reference.value == 0.0 {
+            findings.error(
+                &format!("{at}.relative"),
+                "no value but 0 is near 0 in relative terms".to_owned(),
+                "write absolute = ... instead",
+            );
+        }
+        if reference.source.trim().is_empty() {
+            findings.error(
+                &format!("{at}.source"),
+                "the reference does not say where its value is from".to_owned(),
+                "write who published it and where, or how it follows",
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,108 @@
+//! `[calibration]`: which coefficients of a reduced model are found, and from which runs or records.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+#[cfg(test)]
+use crate::spec::number::Positive;
+
+/// `[calibration]`: coefficients of `[reduced]` that make it do as runs of the full solver, or as what was recorded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct CalibrationSpec {
+    /// Names of the coefficients that are found, the same for all bodies; others stay as they are.
+    #[cfg_attr(test, schemars(length(min = 1)))]
+    pub fit: Vec<String>,
+    /// Smallest and largest value of each by its name; 0 and 1000 if absent. The value in `[reduced]`, where a fit to
+    /// tracks starts, is between them.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub bounds: BTreeMap<String, [f64; 2]>,
+    /// What is fitted; loads if absent, and tracks where anything is from a CSV file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by: Option<FitBy>,
+    /// Tracks of runs that are fitted: `NAME.x`, `.y`, `.z` or `.angle` of bodies; those of the first body if absent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tracks: Vec<String>,
+    /// Runs and records.
+    #[cfg_attr(test, schemars(length(min = 1)))]
+    pub from: Vec<RecordSpec>,
+}
+
+/// `by`: one of these.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum FitBy {
+    /// Loads on bodies that move as in the runs, by bounded least squares.
+    Loads,
+    /// Ways and angles of bodies, by the method of Gauss and Newton with exact derivatives.
+    Tracks,
+    /// Both, of runs: mean squares of loads over their size and of tracks over theirs, each as much as the other.
+    Both,
+}
+
+/// `[[calibration.from]]`: a run, runs in a directory, or a record.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RecordSpec {
+    /// Directory of a run of the full solver, or one with such directories in it, as a sweep makes it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run: Option<String>,
+    /// CSV file with a header.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub csv: Option<String>,
+    /// Whether it is not fitted, and only compared with.
+    #[serde(default)]
+    pub holdout: bool,
+    /// Column of the times (s) of a CSV file, rising.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<String>,
+    /// Rows a second of a CSV file without times, the first at time 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+    pub rate: Option<f64>,
+    /// Columns of a CSV file by the quantities they have: `NAME.x`, `.y`, `.z` or `.angle` of bodies.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub columns: BTreeMap<String, String>,
+    /// What columns are multiplied by, by their quantities, to be in the units of the case.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub units: BTreeMap<String, f64>,
+    /// Where the frame of a planar record is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<RecordFrame>,
+    /// Keys of the case that are other for a record, as `--set` has them: "KEY=VALUE".
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub set: Vec<String>,
+}
+
+/// `frame`: the frame in which a record was made, in that of the case, after units.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RecordFrame {
+    /// Its origin (m).
+    #[serde(default)]
+    pub origin: [f64; 2],
+    /// How its axes are turned, counter-clockwise (rad).
+    #[serde(default, deserialize_with = "crate::text::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "crate::text::angle::Angle"))]
+    pub angle: f64,
+}
+
+impl CalibrationSpec {
+    /// What is fitted.
+    #[must_use]
+    pub fn fits(&self) -> FitBy {
+        let has_record = self.from.iter().any(|one| one.csv.is_some() && !one.holdout);
+        self.by.unwrap_or(if has_record { FitBy::Tracks } else { FitBy::Loads })
+    }
+
+    /// Bounds of a coefficient.
+    #[must_use]
+    pub fn bounds_of(&self, name: &str) -> [f64; 2] {
+        self.bounds.get(name).copied().unwrap_or([0.0, 1000.0])
+    }
+}

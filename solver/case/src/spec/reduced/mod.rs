@@ -1,0 +1,80 @@
+//! `[reduced]`: by which laws a swimmer moves where no flow is solved for.
+
+pub(crate) mod law;
+pub(crate) mod parts;
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use self::law::{Coefficient, LoadLaw};
+use self::parts::{BuoyancySpec, CalibratedSpec, ConnectionSpec, ThrusterSpec};
+
+/// `[reduced]`: the reduced model of a swimmer, for runs with `--fidelity reduced`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ReducedSpec {
+    /// Law of what the fluid does to a body.
+    pub loads: LoadLaw,
+    /// Coefficients of the law by name, for all bodies; those that are absent are as the page says.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub coefficients: BTreeMap<String, f64>,
+    /// Coefficients of single bodies by their names: `reduced.body.eel-1.normal_linear`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub body: BTreeMap<String, BTreeMap<String, f64>>,
+    /// What the fluid about an ellipsoid does by its inertia: `full` if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub added_mass: Option<AddedMassSpec>,
+    /// What bodies displace, by their names, where it is not what their shapes do.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub buoyancy: BTreeMap<String, BuoyancySpec>,
+    /// Propellers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub thruster: Vec<ThrusterSpec>,
+    /// The table of `loads = "connection"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub connection: Option<ConnectionSpec>,
+    /// A file of `alewife calibrate`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub calibrated: Option<CalibratedSpec>,
+}
+
+/// `added_mass`: one of these.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum AddedMassSpec {
+    /// It resists accelerations, and its momentum turns with the body.
+    Full,
+    /// As `MuJoCo` has it: the momentum turns with the body, and resists no acceleration.
+    Mujoco,
+}
+
+impl ReducedSpec {
+    /// A law with all its coefficients as they are where none is written.
+    #[must_use]
+    pub fn new(loads: LoadLaw) -> Self {
+        Self {
+            loads,
+            coefficients: BTreeMap::new(),
+            body: BTreeMap::new(),
+            added_mass: None,
+            buoyancy: BTreeMap::new(),
+            thruster: Vec::new(),
+            connection: None,
+            calibrated: None,
+        }
+    }
+
+    /// The coefficients of a body, in the order of its law.
+    #[must_use]
+    pub fn coefficients_of(&self, body: &str) -> Vec<f64> {
+        let own = self.body.get(body);
+        let value = |one: &Coefficient| {
+            let of_body = own.and_then(|own| own.get(one.name));
+            *of_body.or_else(|| self.coefficients.get(one.name)).unwrap_or(&one.default)
+        };
+        self.loads.coefficients().iter().map(value).collect()
+    }
+}

@@ -1,0 +1,51 @@
+//! `calibrate`: numbers of a soft case, or coefficients of a reduced model.
+
+use std::path::{Path, PathBuf};
+
+use alewife_reduced::tier::Which;
+
+use super::exit::{Exit, Failure};
+use super::read::{print_warnings, read_and_check};
+use super::soft::{SearchOptions, seek};
+use super::style::say;
+use crate::case::soft::SoftFile;
+use crate::observer::write_atomic;
+use crate::reduced::{CalibrateError, ReducedError, calibrate as find};
+
+/// The file that a calibration of a reduced model writes.
+const FILE: &str = "calibrated.toml";
+
+/// Calibrates a case by what it is.
+pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
+    if SoftFile::read_if_soft(options.case(), options.set())?.is_some() {
+        return seek(options, Which::Calibration);
+    }
+    let checked = read_and_check(options.case(), options.set())?;
+    let (file, warnings) = (checked.file, checked.warnings);
+    print_warnings(&warnings);
+    let default = || Path::new("runs").join(file.full_name().replace('/', "-") + "-calibration");
+    let out: PathBuf = options.out().map_or_else(default, Path::to_path_buf);
+    if out.join(FILE).exists() && !options.overwrites() {
+        let message = format!(
+            "{} is finished: write elsewhere by --out, or replace it by --overwrite",
+            out.display()
+        );
+        return Err(Failure::new(Exit::Usage, message));
+    }
+    let found = find(&file).map_err(|error| {
+        let exit = match &error {
+            CalibrateError::Tree(_) | CalibrateError::Model(ReducedError::Tree(_)) => {
+                Exit::Diverged
+            }
+            _ => Exit::BadCase,
+        };
+        Failure::new(exit, error.to_string())
+    })?;
+    say(found.text().trim_end());
+    let written = std::fs::create_dir_all(&out)
+        .and_then(|()| write_atomic(&out.join(FILE), found.to_toml().as_bytes()));
+    written
+        .map_err(|error| Failure::new(Exit::InputOutput, format!("{}: {error}", out.display())))?;
+    say(&format!("written to {}", out.display()));
+    Ok(Exit::Done)
+}

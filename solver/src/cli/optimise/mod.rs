@@ -1,0 +1,75 @@
+//! `optimise`: numbers of a case that make its objective large, of an elastic body without a flow or of a steady flow.
+
+use std::path::{Path, PathBuf};
+
+use alewife_reduced::search::Ended;
+use alewife_reduced::tier::Which;
+
+use super::exit::{Exit, Failure};
+use super::read::read_case;
+use super::soft::{self, SearchOptions, not_written, prepare, progress_line};
+use super::style::{complain, say};
+use crate::case::soft::SoftFile;
+use crate::case::{CaseFile, printable};
+use crate::optimise::{Compared, FlowSearch, OptimiseError, RoundProgress};
+
+/// The file that is written last.
+const LAST: &str = "report.json";
+
+/// Seeks the optimum of a case.
+pub fn optimise(options: &SearchOptions) -> Result<Exit, Failure> {
+    if SoftFile::read_if_soft(&options.case, &options.settings.set)?.is_some() {
+        return soft::seek(options, Which::Optimisation);
+    }
+    let file = read_case(&options.case, &options.settings.set)?;
+    let search = FlowSearch::new(&file)?;
+    let out = options.out.clone().unwrap_or_else(|| default_directory(&file));
+    prepare(&out, [LAST, "journal"], options.overwrite)?;
+    let mut told = |one: &RoundProgress| {
+        if !options.quiet {
+            let line = progress_line(&one.progress, Which::Optimisation);
+            complain(&format!("round {} {line}", one.round));
+        }
+    };
+    let optimum = search.seek(&out, &mut told)?;
+    say(optimum.text().trim_end());
+    optimum.write(&out).map_err(|error| not_written(&out, &error))?;
+    let compared = optimum.compared();
+    for one in &compared {
+        if one.is_within() { say(&one.line()) } else { complain(&one.line()) }
+    }
+    say(&format!("written to {}", out.display()));
+    match &optimum.found.ended {
+        Ended::Failed(why) => {
+            let message = format!("the search ended early: {why}; its best point is written");
+            Err(Failure::new(Exit::Diverged, message))
+        }
+        _ if compared.iter().all(Compared::is_within) => Ok(Exit::Done),
+        _ => Ok(Exit::OutsideTolerance),
+    }
+}
+
+/// What the search of a case is about, in a line.
+pub fn search_line(file: &CaseFile) -> Option<String> {
+    let spec = file.case().optimisation.as_ref()?;
+    let quantities = spec.objective.quantities();
+    let quantities: Vec<&str> = quantities.iter().map(|part| part.quantity).collect();
+    let numbers: Vec<String> = file.sought().into_iter().map(|number| number.name).collect();
+    let line = format!("`alewife optimise`: {} by {}", quantities.join(", "), numbers.join(", "));
+    Some(printable(&line))
+}
+
+/// Where a search is written if nothing else is asked for.
+fn default_directory(file: &CaseFile) -> PathBuf {
+    Path::new("runs").join(format!("{}-optimisation", file.full_name().replace('/', "-")))
+}
+
+impl From<OptimiseError> for Failure {
+    fn from(error: OptimiseError) -> Self {
+        match error {
+            OptimiseError::Case(error) => error.into(),
+            OptimiseError::Gradient(error) => error.into(),
+            OptimiseError::Search(error) => soft::search_failure(&error),
+        }
+    }
+}

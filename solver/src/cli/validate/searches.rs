@@ -1,0 +1,237 @@
+//! Soft cases and optima of steady flows in a validation: what their commands compute, against their references.
+
+use std::path::{Path, PathBuf};
+
+use alewife_reduced::tier::{
+    Bodies, Compared as SoftCompared, Job, Model, SolidOf, TierError, Which, compare, series,
+};
+
+use super::super::exit::Failure;
+use super::super::read::{CheckedCase, read_and_check};
+use super::super::style::complain;
+use crate::case::soft::SoftFile;
+use crate::case::soft::spec::ReferenceOf;
+use crate::case::{
+    Case, CaseFile, Expected, OptimumReference, Reference, Statistic, StatisticKind,
+};
+use crate::observer::Origin;
+use crate::optimise::{Compared, FlowSearch};
+use crate::validation::{Comparison, MemberReport, Verdict};
+
+/// What a validation computes besides runs of flows.
+pub enum Searched {
+    /// Motion and searches of a soft case.
+    Soft(Box<SoftFile>),
+    /// The optimum of a steady flow.
+    Optimum(Box<CaseFile>),
+}
+
+/// Names of cases, by what is done with them.
+pub struct Split {
+    /// Cases of flows, which are run.
+    pub flows: Vec<String>,
+    /// Soft cases, and optima of flows.
+    pub searched: Vec<Searched>,
+}
+
+/// Finds out which of these cases are soft, and which have an optimum with references.
+///
+/// # Errors
+/// With all that is wrong in a case. One whose recorded file does not come with it, and is not there, is left out.
+pub fn split(names: &[String], only_quick: bool) -> Result<Split, Failure> {
+    let mut split = Split { flows: Vec::new(), searched: Vec::new() };
+    for name in names {
+        match SoftFile::read_if_soft(name, &[]) {
+            Ok(Some(file)) if !only_quick => split.searched.push(Searched::Soft(Box::new(file))),
+            Ok(Some(_)) => {}
+            Ok(None) => {
+                split.flows.push(name.clone());
+                split.searched.extend(optimum(name, only_quick)?);
+            }
+            Err(error) => {
+                let said = error.to_string();
+                let of_flow = Case::read(name, &[]).err();
+                if of_flow.is_some_and(|other| other.to_string() == said) {
+                    // It is told with all that is wrong in other cases
+                    split.flows.push(name.clone());
+                } else if said.contains("does not come with the case") {
+                    complain(&format!("{name} is left out: {said}"));
+                } else {
+                    return Err(Failure::from(error).of(name));
+                }
+            }
+        }
+    }
+    Ok(split)
+}
+
+/// The optimum of a case, if it has references.
+fn optimum(name: &str, only_quick: bool) -> Result<Option<Searched>, Failure> {
+    // What is wrong in a case is told where its runs are read
+    let Ok(CheckedCase { file, .. }) = read_and_check(name, &[]) else { return Ok(None) };
+    let has_references =
+        file.case().optimisation.as_ref().is_some_and(|own| !own.reference.is_empty());
+    let is_wanted = has_references && (file.case().quick || !only_quick);
+    Ok(is_wanted.then(|| Searched::Optimum(Box::new(file))))
+}
+
+impl Searched {
+    /// Name of the case.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Soft(file) => file.name.clone(),
+            Self::Optimum(file) => file.full_name(),
+        }
+    }
+
+    /// What is computed and compared; searches have their journals in directories of their own in `out`, or in one
+    /// that is taken away.
+    pub fn validate(&self, out: Option<&Path>, n_threads: usize) -> Result<MemberReport, Failure> {
+        let place = Place::new(out)?;
+        let comparisons = match self {
+            Self::Soft(file) if file.case.geometry.dimensions() == 2 => soft::<2>(file, &place)?,
+            Self::Soft(file) => soft::<3>(file, &place)?,
+            Self::Optimum(file) => optimum_of(file, &place)?,
+        };
+        let origin = Origin::of_this_process("", n_threads);
+        let day = origin.started_at.get(..10).unwrap_or_default();
+        let made_by = format!("{}, {day}", origin.program());
+        Ok(MemberReport { name: self.name(), size: None, companion: None, comparisons, made_by })
+    }
+}
+
+/// Where journals are.
+struct Place {
+    directory: PathBuf,
+    is_temporary: bool,
+}
+
+impl Place {
+    fn new(out: Option<&Path>) -> Result<Self, Failure> {
+        let temporary =
+            || std::env::temp_dir().join(format!("alewife-validate-{}", std::process::id()));
+        let directory = out.map_or_else(temporary, Path::to_owned);
+        Ok(Self { directory, is_temporary: out.is_none() })
+    }
+
+    /// The directory of a search.
+    fn of(&self, name: &str, what: &str) -> Result<PathBuf, Failure> {
+        let place = self.directory.join(format!("{}-{what}", name.replace('/', "-")));
+        std::fs::create_dir_all(&place)?;
+        Ok(place)
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        if self.is_temporary {
+            // What is left of a search that nobody keeps
+            drop(std::fs::remove_dir_all(&self.directory));
+        }
+    }
+}
+
+/// The motion and the searches of a soft case that have references.
+fn soft<const D: usize>(file: &SoftFile, place: &Place) -> Result<Vec<Comparison>, Failure>
+where
+    Bodies: SolidOf<D>,
+{
+    let is_of = |of: ReferenceOf| file.case.reference.iter().any(|one| one.of == of);
+    let mut all = Vec::new();
+    if is_of(ReferenceOf::Run) {
+        let model = Model::<D>::new(file)?;
+        let motion = Bodies::simulate(&model.body, &model.plan).map_err(TierError::from)?;
+        let table = series(&model, &motion).map_err(TierError::from)?;
+        all.extend(compare(&file.case, ReferenceOf::Run, &|name| table.last(name)));
+    }
+    for (of, which) in [
+        (ReferenceOf::Calibration, Which::Calibration),
+        (ReferenceOf::Optimisation, Which::Optimisation),
+    ] {
+        if is_of(of) {
+            let directory = place.of(&file.name, which.name())?;
+            let job = Job::<D>::new(file, which)?;
+            let result = job.seek(&directory, &mut |_| {});
+            let result = result.map_err(|error| crate::cli::soft::search_failure(&error))?;
+            all.extend(result.compared);
+        }
+    }
+    Ok(all.iter().map(|one| of_soft(&file.name, one)).collect())
+}
+
+/// The optimum of a steady flow.
+fn optimum_of(file: &CaseFile, place: &Place) -> Result<Vec<Comparison>, Failure> {
+    let directory = place.of(&file.full_name(), "optimisation")?;
+    let optimum = FlowSearch::new(file)?.seek(&directory, &mut |_| {})?;
+    let name = file.full_name();
+    Ok(optimum.compared().iter().map(|one| of_optimum(&name, one)).collect())
+}
+
+fn of_soft(case: &str, one: &SoftCompared) -> Comparison {
+    let reference = &one.reference;
+    let what = match reference.of {
+        ReferenceOf::Run => "",
+        ReferenceOf::Calibration => " (calibration)",
+        ReferenceOf::Optimisation => " (optimisation)",
+    };
+    let computed = one.computed.ok_or_else(|| "there is no such quantity".to_owned());
+    let plain = OptimumReference {
+        quantity: reference.quantity.clone(),
+        value: reference.value,
+        relative: reference.relative,
+        absolute: reference.absolute,
+        kind: reference.kind,
+        source: reference.source.clone(),
+    };
+    comparison(case, what, &plain, computed)
+}
+
+fn of_optimum(case: &str, one: &Compared) -> Comparison {
+    comparison(case, " (optimisation)", &one.reference, Ok(one.computed))
+}
+
+/// A comparison as those of runs are.
+fn comparison(
+    case: &str,
+    what: &str,
+    reference: &OptimumReference,
+    computed: Result<f64, String>,
+) -> Comparison {
+    let OptimumReference { quantity, value, relative, absolute, kind, source } = reference.clone();
+    let verdict = match computed {
+        Ok(found) if (found - value).abs() <= reference.allowed() => Verdict::Within,
+        Ok(_) => Verdict::Outside,
+        Err(_) => Verdict::NotComputed,
+    };
+    let statistic = Statistic {
+        quantity: quantity.clone(),
+        minus: None,
+        kind: StatisticKind::default(),
+        at: None,
+        level: None,
+        of: None,
+    };
+    let expected = Expected {
+        value,
+        per: 1.0,
+        relative,
+        absolute,
+        uncertainty: None,
+        kind,
+        source,
+        date: None,
+        outside: None,
+        cause: None,
+        note: None,
+    };
+    Comparison {
+        case: case.to_owned(),
+        quantity: format!("{quantity}{what}"),
+        computed,
+        reference: Reference { statistic, expected },
+        verdict,
+        dofs: 0,
+        cpu_seconds: 0.0,
+        numerical: None,
+    }
+}

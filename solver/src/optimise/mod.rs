@@ -1,0 +1,12 @@
+//! Searches for the numbers of a steady flow that make an objective large, by its gradients.
+
+mod error;
+mod numbers;
+mod objective;
+mod optimum;
+mod rounds;
+mod sought;
+
+pub use error::OptimiseError;
+pub use optimum::{Compared, Optimum};
+pub use rounds::{FlowSearch, RoundProgress};

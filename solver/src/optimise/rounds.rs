@@ -1,0 +1,200 @@
+//! `FlowSearch`: a search of a steady flow in rounds, each on the mesh of the case at the best of the round before.
+//!
+//! Within a round the mesh follows the bodies, so that the objective is a smooth function of the numbers. It is that of
+//! the mesh of the start, though: a round that has led away from it is followed by another one.
+
+use std::path::Path;
+
+use alewife_reduced::search::{
+    Bounded, Ended, Evaluated, Found, Progress, Search, SearchError, certainties, search,
+};
+
+use super::error::OptimiseError;
+use super::numbers::Numbers;
+use super::objective::Objective;
+use super::optimum::Optimum;
+use super::sought::OnOneMesh;
+use crate::case::{CaseError, CaseFile, Diagnostic, FlowOptimisation, Severity};
+use crate::gradient::Derivatives;
+
+/// Rounds at most.
+const MOST_ROUNDS: usize = 10;
+
+/// Way of a round, in scales or logarithms of the numbers, after which the mesh is as good as one of the best.
+const NEAR: f64 = 0.01;
+
+/// The rise of the objective, of its value, up to which numbers are told to be as good.
+const RISE: f64 = 0.01;
+
+/// A search of a steady flow.
+#[derive(Debug)]
+pub struct FlowSearch {
+    file: CaseFile,
+    spec: FlowOptimisation,
+    numbers: Numbers,
+    objective: Objective,
+}
+
+/// How far a search is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RoundProgress {
+    /// The round, from 1.
+    pub round: usize,
+    /// How far the search is.
+    pub progress: Progress,
+}
+
+/// What rounds have found.
+struct Rounds<'a> {
+    /// All evaluations.
+    all: Vec<Evaluated>,
+    /// What the last round has found.
+    last: Found,
+    /// Quantities where the first round began.
+    at_start: Vec<Derivatives>,
+    /// The mesh of the last round.
+    sought: OnOneMesh<'a>,
+    /// Number of rounds.
+    n: usize,
+}
+
+impl FlowSearch {
+    /// That of a case.
+    ///
+    /// # Errors
+    /// [`OptimiseError::Case`]: it has none, or is wrong at its bounds.
+    pub fn new(file: &CaseFile) -> Result<Self, OptimiseError> {
+        let Some(spec) = file.case().optimisation.clone() else {
+            let missing = Diagnostic {
+                severity: Severity::Error,
+                key: String::new(),
+                message: "the case has no [optimisation]".to_owned(),
+                help: "add [optimisation] with an objective and the numbers that are sought"
+                    .to_owned(),
+                location: None,
+            };
+            return Err(CaseError::Wrong(vec![missing]).into());
+        };
+        let numbers = Numbers::new(file);
+        numbers.check_bounds()?;
+        let objective = Objective::new(&spec.objective, &file.case().define);
+        Ok(Self { file: file.clone(), spec, numbers, objective })
+    }
+
+    /// Seeks, with a journal of each round in a directory: what stands there of this search is not computed again, and so
+    /// it goes on with the same bits.
+    ///
+    /// # Errors
+    /// [`OptimiseError`]: there is no flow at the start, or a journal is of another search or cannot be written.
+    pub fn seek(
+        &self,
+        directory: &Path,
+        told: &mut dyn FnMut(&RoundProgress),
+    ) -> Result<Optimum, OptimiseError> {
+        let bounded = self.numbers.bounded();
+        let Rounds { all, last, at_start, mut sought, n } =
+            self.rounds(directory, &bounded, told)?;
+        let rise = RISE * last.best.objective.abs();
+        let certainties = certainties(&bounded, &last.best, rise, &mut sought);
+        let quantities = sought.quantities(&last.best.values)?;
+        let values = |of: &[Derivatives]| of.iter().map(|one| one.value).collect();
+        Ok(Optimum {
+            file: self.numbers.case(&last.best.values)?,
+            found: Found { all, ..last },
+            n_rounds: n,
+            bounded,
+            certainties,
+            names: self.objective.quantities.clone(),
+            quantities: values(&quantities),
+            quantities_at_start: values(&at_start),
+            references: self.spec.reference.clone(),
+        })
+    }
+
+    /// One round after the other, until one of them stays where it began.
+    fn rounds(
+        &self,
+        directory: &Path,
+        bounded: &[Bounded],
+        told: &mut dyn FnMut(&RoundProgress),
+    ) -> Result<Rounds<'_>, OptimiseError> {
+        let most = self.spec.search.evaluations;
+        let mut bounded = bounded.to_vec();
+        let mut all: Vec<Evaluated> = Vec::new();
+        let mut at_start = Vec::new();
+        let mut way_before = f64::INFINITY;
+        for round in 1..=MOST_ROUNDS {
+            let start: Vec<f64> = bounded.iter().map(|one| one.start).collect();
+            let mut sought = OnOneMesh::new(&self.numbers, &self.objective, &start);
+            if round == 1 {
+                // Why there is no flow is told as it is elsewhere, before there is a journal
+                at_start = sought.quantities(&start)?;
+            }
+            let used = all.len();
+            let mut tell = |progress: &Progress| {
+                let n_evaluations = used + progress.n_evaluations;
+                let progress = Progress { n_evaluations, most, ..progress.clone() };
+                told(&RoundProgress { round, progress });
+            };
+            let last = self.round(directory, round, &bounded, used, &mut sought, &mut tell)?;
+            all.extend(last.all.iter().cloned());
+            let way = way(&bounded, &start, &last.best.values);
+            // Ways that do not fall are from what one mesh differs by from another
+            let is_near = way < NEAR || (last.ended == Ended::Converged && way > 0.5 * way_before);
+            let is_left = all.len() < most && round < MOST_ROUNDS;
+            // A method that fails where no flow has failed has met what its mesh is too coarse for
+            let may_go_on = last.ended != Ended::Evaluations && sought.failure.is_none();
+            if is_near || !is_left || !may_go_on {
+                return Ok(Rounds { all, last, at_start, sought, n: round });
+            }
+            way_before = way;
+            for (one, value) in bounded.iter_mut().zip(&last.best.values) {
+                one.start = *value;
+            }
+        }
+        // The last round has returned
+        Err(SearchError::Start("there was no round".to_owned()).into())
+    }
+
+    /// A round.
+    fn round(
+        &self,
+        directory: &Path,
+        round: usize,
+        bounded: &[Bounded],
+        used: usize,
+        sought: &mut OnOneMesh<'_>,
+        tell: &mut dyn FnMut(&Progress),
+    ) -> Result<Found, SearchError> {
+        let settings = Search {
+            max_evaluations: self.spec.search.evaluations.saturating_sub(used),
+            decrease: self.spec.search.decrease,
+            slope: self.spec.search.slope,
+            known: Vec::new(),
+        };
+        let journal = directory.join(format!("round-{round}.journal")).display().to_string();
+        search(bounded, &settings, [&journal, &self.name(round)], sought, tell)
+    }
+
+    /// Which search a journal is of.
+    fn name(&self, round: usize) -> String {
+        let mut bytes = self.file.case().to_toml().unwrap_or_default().into_bytes();
+        bytes.extend_from_slice(
+            self.file.case().given_mesh().and_then(|mesh| mesh.bytes()).unwrap_or_default(),
+        );
+        format!(
+            "alewife optimisation of crc32:{:08x}-{}, round {round}, version {}",
+            crc32fast::hash(&bytes),
+            bytes.len(),
+            env!("CARGO_PKG_VERSION")
+        )
+    }
+}
+
+/// The largest way of a number, in its scale or its logarithm.
+fn way(bounded: &[Bounded], from: &[f64], to: &[f64]) -> f64 {
+    let ways = bounded.iter().zip(from).zip(to).map(|((one, from), to)| {
+        one.scale.map_or_else(|| (to / from).ln(), |scale| (to - from) / scale).abs()
+    });
+    ways.fold(0.0, f64::max)
+}

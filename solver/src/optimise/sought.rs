@@ -1,0 +1,90 @@
+//! `OnOneMesh`: the objective of a flow on a mesh that follows the bodies, as a search asks for it.
+
+use alewife_reduced::search::{Evaluated, Sought};
+
+use super::numbers::Numbers;
+use super::objective::Objective;
+use crate::gradient::{Derivatives, FlowByNumbers, GradientError, NumberedCase};
+
+/// The objective of a flow, on the mesh of the case at the start of a round.
+pub struct OnOneMesh<'a> {
+    numbers: &'a Numbers,
+    objective: &'a Objective,
+    start: Vec<f64>,
+    /// Made when it is first needed: a search that goes on may know all of a round.
+    flows: Option<FlowByNumbers>,
+    /// What has been found, with the values it was found for.
+    known: Vec<Known>,
+    /// Why the last evaluation failed, if it did.
+    pub failure: Option<String>,
+}
+
+/// Quantities that have been found.
+struct Known {
+    values: Vec<f64>,
+    quantities: Vec<Derivatives>,
+}
+
+impl<'a> OnOneMesh<'a> {
+    /// On the mesh of the case with these values.
+    pub fn new(numbers: &'a Numbers, objective: &'a Objective, start: &[f64]) -> Self {
+        Self {
+            numbers,
+            objective,
+            start: start.to_vec(),
+            flows: None,
+            known: Vec::new(),
+            failure: None,
+        }
+    }
+
+    /// The quantities of the objective at values.
+    pub fn quantities(&mut self, values: &[f64]) -> Result<Vec<Derivatives>, GradientError> {
+        if let Some(known) = self.known.iter().find(|known| known.values == values) {
+            return Ok(known.quantities.clone());
+        }
+        // The case is refused where it is wrong, not only where it cannot be solved
+        self.numbers.checked(values)?;
+        let flows = match self.flows.take() {
+            Some(flows) => flows,
+            None => FlowByNumbers::new(&self.numbers.case(&self.start)?)?,
+        };
+        let numbered = NumberedCase {
+            case: &|values| self.numbers.case(values),
+            of: &self.objective.quantities,
+            sizes: &self.numbers.sizes(values),
+        };
+        let found = flows.at(&numbered, values);
+        self.flows = Some(flows);
+        let quantities = found?;
+        self.known.push(Known { values: values.to_vec(), quantities: quantities.clone() });
+        Ok(quantities)
+    }
+
+    /// The objective at values, and its derivatives by them.
+    fn objective(&mut self, values: &[f64]) -> Result<Evaluated, String> {
+        let quantities = self.quantities(values).map_err(|error| error.to_string())?;
+        let [own, sizes]: [Vec<f64>; 2] =
+            [|one: &Derivatives| one.value, |one: &Derivatives| one.size]
+                .map(|of| quantities.iter().map(of).collect());
+        let found = self.objective.at(&own, &sizes).map_err(|error| error.to_string())?;
+        let slope = |nth: usize| {
+            let parts = quantities.iter().zip(&found.by);
+            -parts.map(|(quantity, by)| by * quantity.by[nth]).sum::<f64>()
+        };
+        let slopes: Vec<f64> = (0..values.len()).map(slope).collect();
+        if !found.value.is_finite() || !slopes.iter().all(|slope| slope.is_finite()) {
+            return Err(format!("the objective is {}, and its slopes are {slopes:?}", found.value));
+        }
+        // A search makes small what it is given
+        Ok(Evaluated { values: values.to_vec(), objective: -found.value, slopes })
+    }
+}
+
+impl Sought for OnOneMesh<'_> {
+    fn evaluate(&mut self, values: &[f64]) -> Result<Evaluated, String> {
+        let found = self.objective(values);
+        self.failure = found.as_ref().err().cloned();
+        found
+    }
+}

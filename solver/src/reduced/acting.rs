@@ -1,0 +1,104 @@
+//! What acts on a tree besides the fluid: joints that are told, forces from outside, thrusters.
+
+use alewife_reduced::tree::{
+    Command, Inputs, Lag, Number, Pose, Thruster, Thrusters, Wrench, real,
+};
+use nalgebra::{Matrix3, Vector3};
+
+use super::build::Reduced;
+use crate::case::{LagSpec, Stroke, ThrusterSpec, TimeFunction};
+
+/// A force and a torque from outside on a body, about its centre of mass.
+#[derive(Debug, Clone)]
+pub(super) struct Pull {
+    pub link: usize,
+    /// The centre and axes of the body in the frame of the link.
+    pub inside: Pose<f64>,
+    pub load: Wrench<f64>,
+    pub factor: Option<TimeFunction>,
+    /// Whether it turns with the body; it keeps the axes of the laboratory otherwise.
+    pub is_in_body: bool,
+}
+
+impl Pull {
+    /// About the origin of the link, in its axes.
+    fn wrench<T: Number>(&self, time: f64, rotation: &Matrix3<T>) -> Wrench<T> {
+        let factor: T = real(self.factor.as_ref().map_or(1.0, |factor| factor.at(time)));
+        let own = self.inside.rotation.map(real::<T>);
+        let turn = if self.is_in_body { own } else { rotation.transpose() };
+        let force = turn * self.load.force.map(real::<T>) * factor;
+        let lever = self.inside.position.map(real::<T>);
+        let torque = turn * self.load.torque.map(real::<T>) * factor + lever.cross(&force);
+        Wrench { force, torque }
+    }
+}
+
+/// A propeller, and what it gives over a step.
+#[derive(Debug, Clone)]
+pub(super) struct Propeller {
+    link: usize,
+    drive: Stroke,
+    thruster: Thrusters<f64>,
+    has_lag: bool,
+    /// At the end of the step before.
+    before: Wrench<f64>,
+    /// Over the step.
+    wrench: Wrench<f64>,
+}
+
+impl Propeller {
+    /// A propeller at rest on a body whose frame has a pose in that of a link.
+    pub fn new(spec: &ThrusterSpec, link: usize, frame: &Pose<f64>) -> Self {
+        let vector = |v: &[f64]| Vector3::from_fn(|k, _| v.get(k).copied().unwrap_or(0.0));
+        let thruster = Thruster {
+            position: frame.position + frame.rotation * vector(&spec.position),
+            direction: frame.rotation * vector(&spec.direction).normalize(),
+            curve: spec.curve.clone(),
+        };
+        let lag = spec.lag.map(|LagSpec { numerator, denominator }| Lag { numerator, denominator });
+        Self {
+            link,
+            drive: spec.drive.clone(),
+            has_lag: lag.is_some(),
+            thruster: Thrusters::new(vec![thruster], lag),
+            before: Wrench::zero(),
+            wrench: Wrench::zero(),
+        }
+    }
+
+    /// Goes on by a step (s): its command is that of the middle, its force the mean of both ends.
+    pub fn advance(&mut self, time: f64, step: f64) {
+        let [command, _] = self.drive.at(time + 0.5 * step);
+        let after = self.thruster.advance(step, &[command]);
+        self.wrench = if self.has_lag {
+            Wrench::zero().plus(&self.before, 0.5).plus(&after, 0.5)
+        } else {
+            after
+        };
+        self.before = after;
+    }
+}
+
+/// All that acts on a tree over a step.
+pub(super) struct Acting<'a> {
+    pub reduced: &'a Reduced,
+    pub propellers: &'a [Propeller],
+}
+
+impl<T: Number> Inputs<T> for Acting<'_> {
+    fn command(&self, time: f64, link: usize) -> Command<T> {
+        let Command { place, rate, effort } = self.reduced.command(time, link);
+        Command { place: real(place), rate: real(rate), effort: real(effort) }
+    }
+
+    fn wrench(&self, time: f64, link: usize, rotation: &Matrix3<T>) -> Option<Wrench<T>> {
+        let pulls = self.reduced.pulls.iter().filter(|pull| pull.link == link);
+        let pushes = self.propellers.iter().filter(|one| one.link == link);
+        let lifted = |one: &Propeller| Wrench {
+            force: one.wrench.force.map(real::<T>),
+            torque: one.wrench.torque.map(real::<T>),
+        };
+        let all = pulls.map(|pull| pull.wrench(time, rotation)).chain(pushes.map(lifted));
+        all.reduce(|sum, one| sum.plus(&one, real(1.0)))
+    }
+}

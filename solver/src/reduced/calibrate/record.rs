@@ -1,0 +1,308 @@
+//! `Record`: a run of the full solver or rows of a CSV file, with the reduced model of its case.
+
+use std::path::{Path, PathBuf};
+
+use super::error::CalibrateError;
+use super::{Origin, file};
+use crate::case::{
+    CalibrationSpec, Case, CaseFile, Model, RecordSpec, ReducedSpec, TimeSettings, check_reduced,
+};
+use crate::reduced::build::Reduced;
+use crate::run::Series;
+
+/// A way or an angle of a body, and its values.
+#[derive(Debug, Clone)]
+pub struct Track {
+    /// Its name: `NAME.x`.
+    pub name: String,
+    /// Number of the body.
+    pub body: usize,
+    /// 0, 1 and 2 for x, y and z, 3 for the angle.
+    pub axis: usize,
+    /// In the units and the frame of the case.
+    pub values: Vec<f64>,
+}
+
+/// A run or a record.
+#[derive(Debug, Clone)]
+pub struct Record {
+    pub name: String,
+    hash: String,
+    pub is_held_out: bool,
+    pub model: Model,
+    pub reduced: Reduced,
+    /// Times of rows (s).
+    pub times: Vec<f64>,
+    pub tracks: Vec<Track>,
+    /// All quantities of a run.
+    pub series: Option<Series>,
+}
+
+impl Record {
+    pub fn origin(&self) -> Origin {
+        let strokes = self.model.joints.iter().filter_map(|joint| joint.kind.stroke());
+        let (mut periods, mut amplitudes) = (Vec::new(), Vec::new());
+        for stroke in strokes {
+            periods.extend(stroke.period());
+            let [least, most] = stroke.range();
+            amplitudes.push(0.5 * (most - least));
+        }
+        let case = &self.model.case;
+        Origin {
+            name: self.name.clone(),
+            hash: self.hash.clone(),
+            is_held_out: self.is_held_out,
+            rows: self.times.len(),
+            periods,
+            amplitudes,
+            viscosity: case.reference_viscosity() / case.fluid.density,
+        }
+    }
+
+    /// Step (s) of its reduced model.
+    pub fn step(&self) -> f64 {
+        match &self.model.case.time {
+            TimeSettings::Unsteady(time) => time.step,
+            TimeSettings::Steady(_) => f64::NAN,
+        }
+    }
+}
+
+/// All runs and records of a calibration.
+pub fn records(
+    file: &CaseFile,
+    spec: &CalibrationSpec,
+    reduced: &ReducedSpec,
+) -> Result<Vec<Record>, CalibrateError> {
+    let directory = Path::new(&file.file).parent().map_or_else(PathBuf::new, Path::to_path_buf);
+    let mut records = Vec::new();
+    for (number, from) in spec.from.iter().enumerate() {
+        let reader = Reader { file, spec, reduced, number, from };
+        match (&from.run, &from.csv) {
+            (Some(run), _) => reader.runs(&directory.join(run), run, &mut records)?,
+            (None, Some(csv)) => records.push(reader.rows(&directory, csv)?),
+            (None, None) => return Err(reader.wrong("write one of `run` and `csv`".to_owned())),
+        }
+    }
+    Ok(records)
+}
+
+/// What an entry of `from` is read with.
+struct Reader<'a> {
+    file: &'a CaseFile,
+    spec: &'a CalibrationSpec,
+    reduced: &'a ReducedSpec,
+    number: usize,
+    from: &'a RecordSpec,
+}
+
+impl Reader<'_> {
+    fn wrong(&self, what: String) -> CalibrateError {
+        CalibrateError::Record { number: self.number, what }
+    }
+
+    /// A run, or all runs in a directory, by name.
+    fn runs(
+        &self,
+        path: &Path,
+        name: &str,
+        records: &mut Vec<Record>,
+    ) -> Result<(), CalibrateError> {
+        if path.join("series.csv").exists() {
+            records.push(self.run(path, name)?);
+            return Ok(());
+        }
+        let mut inside: Vec<PathBuf> = std::fs::read_dir(path)
+            .map_err(|error| self.wrong(format!("{}: {error}", path.display())))?
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|path| path.join("series.csv").exists())
+            .collect();
+        inside.sort();
+        if inside.is_empty() {
+            let what = format!(
+                "{} is no run: it has no series.csv, nor directories that have",
+                path.display()
+            );
+            return Err(self.wrong(what));
+        }
+        for path in inside {
+            let own = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            records.push(self.run(&path, &format!("{name}/{own}"))?);
+        }
+        Ok(())
+    }
+
+    fn run(&self, path: &Path, name: &str) -> Result<Record, CalibrateError> {
+        let case = path.join("case.toml");
+        let read = Case::read(&case.to_string_lossy(), &[]).map_err(|error| {
+            CalibrateError::Case { number: self.number, error: Box::new(error) }
+        })?;
+        let model = self.model(&read)?;
+        let bytes = std::fs::read(path.join("series.csv"))
+            .map_err(|error| self.wrong(format!("{}: {error}", path.display())))?;
+        let series = file::series(&bytes).map_err(|what| self.wrong(format!("{name}: {what}")))?;
+        let first = &model.bodies[0].name;
+        let last = if model.case.geometry.dimensions() == 3 { "z" } else { "angle" };
+        let wanted = if self.spec.tracks.is_empty() {
+            ["x", "y", last].map(|axis| format!("{first}.{axis}")).to_vec()
+        } else {
+            self.spec.tracks.clone()
+        };
+        let mut tracks = Vec::new();
+        for track in wanted {
+            let values = series
+                .column(&track)
+                .ok_or_else(|| self.wrong(format!("{name} has no column {track}")))?;
+            tracks.push(self.track(&model, track, values)?);
+        }
+        let times = series.times.clone();
+        self.record([name, &file::hash(&bytes)], model, times, tracks, Some(series))
+    }
+
+    /// Rows of a CSV file.
+    fn rows(&self, directory: &Path, name: &str) -> Result<Record, CalibrateError> {
+        let read = if self.from.set.is_empty() {
+            self.file.clone()
+        } else {
+            let argument = match crate::case::library::find(&self.file.name) {
+                Some(shipped) if shipped.file == self.file.file => self.file.name.clone(),
+                _ => self.file.file.clone(),
+            };
+            Case::read(&argument, &self.from.set).map_err(|error| CalibrateError::Case {
+                number: self.number,
+                error: Box::new(error),
+            })?
+        };
+        let model = self.model(&read)?;
+        let bytes = match crate::case::library::file_beside(&self.file.file, name) {
+            Some(bytes) => bytes.to_vec(),
+            None => {
+                let path = directory.join(name);
+                std::fs::read(&path)
+                    .map_err(|error| self.wrong(format!("{}: {error}", path.display())))?
+            }
+        };
+        let table = file::table(&bytes).map_err(|what| self.wrong(format!("{name}: {what}")))?;
+        let column = |wanted: &String| {
+            table.column(wanted).map_err(|what| self.wrong(format!("{name}: {what}")))
+        };
+        let times = match (&self.from.time, self.from.rate) {
+            (Some(time), _) => column(time)?,
+            (None, rate) => {
+                let rate = rate.unwrap_or(1.0);
+                (0..table.n_rows()).map(|row| row as f64 / rate).collect()
+            }
+        };
+        let rises = times.windows(2).all(|pair| pair[1] > pair[0]);
+        if !rises || times.first().is_none_or(|first| *first < 0.0) || times.len() < 3 {
+            let row = times.windows(2).position(|pair| pair[1] <= pair[0]);
+            let line =
+                row.map_or_else(String::new, |row| format!(", and fall in line {}", row + 3));
+            let what =
+                format!("{name}: its times have to rise from 0 or later over 3 rows or more{line}");
+            return Err(self.wrong(what));
+        }
+        let mut tracks = Vec::new();
+        for (quantity, wanted) in &self.from.columns {
+            let unit = self.from.units.get(quantity).copied().unwrap_or(1.0);
+            let values = column(wanted)?.into_iter().map(|value| value * unit).collect();
+            tracks.push(self.track(&model, quantity.clone(), values)?);
+        }
+        self.place(&mut tracks)?;
+        self.record([name, &file::hash(&bytes)], model, times, tracks, None)
+    }
+
+    /// Puts planar tracks into the frame of the case.
+    fn place(&self, tracks: &mut [Track]) -> Result<(), CalibrateError> {
+        let Some(frame) = self.from.frame else { return Ok(()) };
+        let (sine, cosine) = frame.angle.sin_cos();
+        for k in 0..tracks.len() {
+            match tracks[k].axis {
+                0 => {
+                    let body = tracks[k].body;
+                    let beside = tracks.iter().position(|one| one.body == body && one.axis == 1);
+                    let Some(y) = beside else {
+                        let what = format!("{} has a frame, and no y beside it", tracks[k].name);
+                        return Err(self.wrong(what));
+                    };
+                    for row in 0..tracks[k].values.len() {
+                        let at = [tracks[k].values[row], tracks[y].values[row]];
+                        let [x0, y0] = frame.origin;
+                        tracks[k].values[row] = x0 + cosine * at[0] - sine * at[1];
+                        tracks[y].values[row] = y0 + sine * at[0] + cosine * at[1];
+                    }
+                }
+                1 => {
+                    let body = tracks[k].body;
+                    if !tracks.iter().any(|one| one.body == body && one.axis == 0) {
+                        let what = format!("{} has a frame, and no x beside it", tracks[k].name);
+                        return Err(self.wrong(what));
+                    }
+                }
+                _ => tracks[k].values.iter_mut().for_each(|angle| *angle += frame.angle),
+            }
+        }
+        Ok(())
+    }
+
+    fn track(
+        &self,
+        model: &Model,
+        name: String,
+        values: Vec<f64>,
+    ) -> Result<Track, CalibrateError> {
+        let (owner, what) = name.rsplit_once('.').unwrap_or_default();
+        let axis = ["x", "y", "z", "angle"].iter().position(|axis| *axis == what);
+        let (Some(body), Some(axis)) = (model.body_index(owner), axis) else {
+            return Err(self.wrong(format!("{name} is no way or angle of a body")));
+        };
+        Ok(Track { name, body, axis, values })
+    }
+
+    /// The model of a run with the law that is calibrated, if it is of the same swimmer.
+    fn model(&self, read: &CaseFile) -> Result<Model, CalibrateError> {
+        let mut model = read.model.clone();
+        let names = |model: &Model| -> Vec<String> {
+            model.bodies.iter().map(|body| body.name.clone()).collect()
+        };
+        let (ours, theirs) = (names(&self.file.model), names(&model));
+        if ours != theirs || model.case.geometry != self.file.case().geometry {
+            let what = format!(
+                "it is a run of another swimmer: its bodies are {}, and those of the case {}",
+                theirs.join(", "),
+                ours.join(", ")
+            );
+            return Err(self.wrong(what));
+        }
+        model.case.reduced = Some(self.reduced.clone());
+        let mut changed = read.clone();
+        changed.model = model;
+        let unknown = check_reduced(&changed);
+        if let Some(first) = unknown.first() {
+            return Err(self.wrong(format!("{}: {}", first.key, first.message)));
+        }
+        Ok(changed.model)
+    }
+
+    fn record(
+        &self,
+        [name, hash]: [&str; 2],
+        model: Model,
+        times: Vec<f64>,
+        tracks: Vec<Track>,
+        series: Option<Series>,
+    ) -> Result<Record, CalibrateError> {
+        let reduced = Reduced::new(&model)?;
+        Ok(Record {
+            name: name.to_owned(),
+            hash: hash.to_owned(),
+            is_held_out: self.from.holdout,
+            model,
+            reduced,
+            times,
+            tracks,
+            series,
+        })
+    }
+}

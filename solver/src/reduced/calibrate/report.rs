@@ -1,0 +1,145 @@
+//! What a calibration has found, as text and as the file `calibrated.toml`.
+
+use std::fmt::Write as _;
+
+use toml::{Table, Value};
+
+use super::{Calibrated, Origin};
+use crate::case::{FitBy, significant};
+
+impl Calibrated {
+    /// Why a value says little, if it does.
+    fn doubt(&self, nth: usize) -> Option<&'static str> {
+        let (value, error) = (self.fit.parameters[nth], self.fit.uncertainties[nth]);
+        let [lower, upper] = self.bounds[nth];
+        if value <= lower || value >= upper {
+            Some("at its bound")
+        } else if !error.is_finite() || error > value.abs() {
+            Some("undetermined")
+        } else {
+            None
+        }
+    }
+
+    /// Lines for the terminal.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        for (nth, name) in self.names.iter().enumerate() {
+            let (value, error) = (self.fit.parameters[nth], self.fit.uncertainties[nth]);
+            let doubt = self.doubt(nth).map_or_else(String::new, |doubt| format!("  {doubt}"));
+            // Writing to a text cannot fail
+            let _ = writeln!(
+                text,
+                "{name:28} {:>12} +- {}{doubt}",
+                significant(value),
+                significant(error)
+            );
+        }
+        for is_held_out in [false, true] {
+            let own: Vec<_> =
+                self.deviations.iter().filter(|one| one.is_held_out == is_held_out).collect();
+            if own.is_empty() {
+                continue;
+            }
+            let _ = writeln!(text, "\n{}", if is_held_out { "held out" } else { "fitted" });
+            for one in own {
+                let _ = writeln!(
+                    text,
+                    "  {:24} {:36} {:>12} {:>12} {:+8.1} %",
+                    one.record,
+                    one.quantity,
+                    significant(one.model),
+                    significant(one.recorded),
+                    100.0 * one.relative
+                );
+            }
+        }
+        text
+    }
+
+    /// The file that a case names as `reduced.calibrated`.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let mut reduced = Table::new();
+        reduced.insert("loads".to_owned(), self.spec.loads.name().into());
+        let values = self.spec.coefficients.iter();
+        let values: Table = values.map(|(name, value)| (name.clone(), (*value).into())).collect();
+        reduced.insert("coefficients".to_owned(), values.into());
+        let mut file = Table::new();
+        file.insert("reduced".to_owned(), reduced.into());
+        file.insert("calibrated".to_owned(), self.facts().into());
+        let head = "# Written by `alewife calibrate`. A case takes the coefficients by\n\
+                    # reduced.calibrated = { file = \"calibrated.toml\" }\n\n";
+        toml::to_string(&file).map_or_else(|_| String::new(), |text| format!("{head}{text}"))
+    }
+
+    fn facts(&self) -> Table {
+        let mut facts = Table::new();
+        facts.insert("case".to_owned(), self.case.clone().into());
+        let by = match self.by {
+            FitBy::Loads => "loads",
+            FitBy::Tracks => "tracks",
+            FitBy::Both => "both",
+        };
+        facts.insert("by".to_owned(), by.into());
+        let texts = |all: &[String]| Value::from(all.to_vec());
+        facts.insert("bodies".to_owned(), texts(&self.bodies));
+        let fitted = || self.origins.iter().filter(|one| !one.is_held_out);
+        let ranges = [
+            ("periods", fitted().flat_map(|one| one.periods.clone()).collect::<Vec<f64>>()),
+            ("amplitudes", fitted().flat_map(|one| one.amplitudes.clone()).collect()),
+            ("viscosities", fitted().map(|one| one.viscosity).collect()),
+        ];
+        for (name, values) in ranges {
+            let finite: Vec<f64> = values.into_iter().filter(|one| one.is_finite()).collect();
+            let least = finite.iter().copied().reduce(f64::min);
+            let most = finite.iter().copied().reduce(f64::max);
+            if let (Some(least), Some(most)) = (least, most) {
+                facts.insert(name.to_owned(), vec![least, most].into());
+            }
+        }
+        facts.insert("coefficient".to_owned(), self.coefficients().into());
+        let from: Vec<Value> = self.origins.iter().map(Origin::table).collect();
+        facts.insert("from".to_owned(), from.into());
+        let errors = self.deviations.iter().map(|one| {
+            let mut table = Table::new();
+            table.insert("from".to_owned(), one.record.clone().into());
+            table.insert("holdout".to_owned(), one.is_held_out.into());
+            table.insert("quantity".to_owned(), one.quantity.clone().into());
+            table.insert("model".to_owned(), one.model.into());
+            table.insert("recorded".to_owned(), one.recorded.into());
+            table.insert("relative".to_owned(), one.relative.into());
+            Value::from(table)
+        });
+        let errors: Vec<Value> = errors.collect();
+        facts.insert("error".to_owned(), errors.into());
+        facts
+    }
+
+    fn coefficients(&self) -> Vec<Value> {
+        let one = |(nth, name): (usize, &String)| {
+            let mut table = Table::new();
+            table.insert("name".to_owned(), name.clone().into());
+            table.insert("value".to_owned(), self.fit.parameters[nth].into());
+            table.insert("uncertainty".to_owned(), self.fit.uncertainties[nth].into());
+            table.insert("bounds".to_owned(), self.bounds[nth].to_vec().into());
+            if let Some(doubt) = self.doubt(nth) {
+                table.insert("doubt".to_owned(), doubt.into());
+            }
+            table.into()
+        };
+        self.names.iter().enumerate().map(one).collect()
+    }
+}
+
+impl Origin {
+    fn table(&self) -> Value {
+        let mut table = Table::new();
+        table.insert("name".to_owned(), self.name.clone().into());
+        table.insert("hash".to_owned(), self.hash.clone().into());
+        table.insert("holdout".to_owned(), self.is_held_out.into());
+        table.insert("rows".to_owned(), (self.rows as i64).into());
+        table.into()
+    }
+}

@@ -1,0 +1,98 @@
+//! The tree of a case over any kind of number, with other coefficients: what derivatives by these are made with.
+
+use alewife_reduced::tree::{
+    Drive, Joint, Link, Number, PlacedLoad, Placement, Pose, State, Stops, Symmetric, Tree,
+    TreeError, Weight, real,
+};
+
+use super::build::Reduced;
+
+/// A pose as one of numbers.
+pub(super) fn pose<T: Number>(pose: &Pose<f64>) -> Pose<T> {
+    Pose { rotation: pose.rotation.map(real), position: pose.position.map(real) }
+}
+
+fn symmetric<T: Number>(one: &Symmetric<f64>) -> Symmetric<T> {
+    Symmetric {
+        linear: one.linear.map(real),
+        mixed: one.mixed.map(real),
+        angular: one.angular.map(real),
+    }
+}
+
+fn joint<T: Number>(joint: &Joint<f64>) -> Joint<T> {
+    let stops = joint.stops.map(|stops| Stops {
+        lower: real(stops.lower),
+        upper: real(stops.upper),
+        stiffness: real(stops.stiffness),
+        damping: real(stops.damping),
+    });
+    let drive = match joint.drive {
+        Drive::Effort => Drive::Effort,
+        Drive::Given => Drive::Given,
+        Drive::Rate => Drive::Rate,
+        Drive::Servo { gain, limit } => Drive::Servo { gain: real(gain), limit: real(limit) },
+    };
+    Joint {
+        kind: joint.kind,
+        axis: joint.axis.map(real),
+        drive,
+        stiffness: real(joint.stiffness),
+        rest: real(joint.rest),
+        damping: real(joint.damping),
+        stops,
+    }
+}
+
+fn link<T: Number>(link: &Link<f64>) -> Link<T> {
+    let weight = link.weight.map(|weight| Weight {
+        mass: real(weight.mass),
+        mass_center: weight.mass_center.map(real),
+        displaced: real(weight.displaced),
+        buoyancy_center: weight.buoyancy_center.map(real),
+    });
+    Link {
+        parent: link.parent,
+        at: pose(&link.at),
+        joint: joint(&link.joint),
+        inertia: symmetric(&link.inertia),
+        weight,
+        loads: Vec::new(),
+    }
+}
+
+/// The state that a case starts from.
+pub(super) fn state<T: Number>(state: &State<f64>) -> State<T> {
+    let all = |values: &[f64]| values.iter().map(|value| real(*value)).collect();
+    State {
+        time: state.time,
+        root: Placement {
+            position: state.root.position.map(real),
+            quaternion: state.root.quaternion.map(real),
+        },
+        coordinates: all(&state.coordinates),
+        velocities: all(&state.velocities),
+        accelerations: all(&state.accelerations),
+        efforts: all(&state.efforts),
+    }
+}
+
+impl Reduced {
+    /// Its tree with the coefficients that are given of each body.
+    ///
+    /// # Errors
+    /// None that its own tree has not.
+    pub fn tree_with<T: Number>(
+        &self,
+        coefficients: impl Fn(&[f64]) -> Vec<T>,
+    ) -> Result<Tree<T>, TreeError> {
+        let mut links: Vec<Link<T>> = self.tree.links().iter().map(link).collect();
+        for part in &self.parts {
+            if let Some(load) = part.law.load(&coefficients(&part.coefficients)) {
+                let met = pose(&part.inside.then(&Pose::at(part.place)));
+                links[part.link].loads.push(PlacedLoad { pose: Some(met), load });
+            }
+        }
+        Ok(Tree::new(self.root, links)?.in_gravity(self.gravity))
+    }
+}

@@ -1,0 +1,165 @@
+//! Calibrations of reduced models: a synthetic twin, loads of a run, the file that is written, bad input.
+
+use std::path::Path;
+use std::process::Command;
+
+use alewife::case::{Case, CaseFile, Severity, check};
+use alewife::reduced::{Calibrated, Deviation, calibrate};
+
+use super::read;
+
+fn found(result: &Calibrated, name: &str) -> f64 {
+    let nth = result.names.iter().position(|one| one == name).unwrap();
+    result.fit.parameters[nth]
+}
+
+fn deviation<'a>(result: &'a Calibrated, record: &str, quantity: &str) -> &'a Deviation {
+    let is_it = |one: &&Deviation| one.record == record && one.quantity == quantity;
+    result.deviations.iter().find(is_it).unwrap_or_else(|| panic!("{record} {quantity}"))
+}
+
+/// The records were made with 0.7, 4.5 and 0.5, and are rounded to a tenth of a millimetre and a hundredth of a degree.
+#[test]
+fn a_twin_gets_its_coefficients_back_from_one_swim() {
+    let result = calibrate(&read("eel-calibration", &[])).unwrap();
+    let expected = [("added_mass", 0.7), ("normal_quadratic", 4.5), ("tangential_quadratic", 0.5)];
+    for (nth, (name, expected)) in expected.into_iter().enumerate() {
+        let (value, error) = (found(&result, name), result.fit.uncertainties[nth]);
+        assert!((value / expected - 1.0).abs() < 0.02, "{name}: {value} +- {error}");
+        assert!(error > 0.0 && error < 0.02 * value, "{name}: {value} +- {error}");
+    }
+    for (record, held_out) in [("record-slow.csv", false), ("record-fast.csv", true)] {
+        let way = deviation(&result, record, "eel-1.x in all");
+        assert!(way.is_held_out == held_out && way.relative.abs() < 0.01, "{way:?}");
+        assert!(deviation(&result, record, "eel-1.x apart, rms").model < 1e-3);
+    }
+}
+
+/// A run by the model itself in a directory: loads are linear in coefficients, and found but for differences in time.
+#[test]
+fn loads_of_a_run_give_the_coefficients_it_was_made_with() {
+    let place = tempfile::tempdir().unwrap();
+    let made = "reduced={ loads = 'links', coefficients = { added_mass = 0.8, normal_linear = 15.0, \
+                normal_quadratic = 6.0, tangential_linear = 12.0, tangential_quadratic = 0.7 } }";
+    let output = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["run", "robot-eel", "--fidelity", "reduced", "--out", "sweep/first", "--set", made])
+        .args(["--set", "time.unsteady.step=0.0025"])
+        .current_dir(place.path())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = "extends = 'robot-eel'
+[calibration]
+fit = ['added_mass', 'normal_linear', 'normal_quadratic', 'tangential_linear', 'tangential_quadratic']
+from = [{ run = 'sweep' }]
+";
+    let file = written(place.path(), "case.toml", text);
+    let result = calibrate(&file).unwrap();
+    let expected = [0.8, 15.0, 6.0, 12.0, 0.7];
+    for ((name, value), expected) in result.names.iter().zip(&result.fit.parameters).zip(expected) {
+        assert!((value / expected - 1.0).abs() < 0.05, "{name}: {value} {expected}");
+    }
+    let loads = deviation(&result, "sweep/first", "loads of bodies apart, rms");
+    assert!(loads.relative < 0.05, "{loads:?}");
+    for quantity in ["eel.cycle.speed", "eel.cycle.power", "eel.cycle.cost_of_transport", "eel way"]
+    {
+        let one = deviation(&result, "sweep/first", quantity);
+        assert!(one.relative.abs() < 0.05, "{one:?}");
+    }
+}
+
+fn written(place: &Path, name: &str, text: &str) -> CaseFile {
+    let path = place.join(name);
+    std::fs::write(&path, text).unwrap();
+    Case::read(path.to_str().unwrap(), &[]).unwrap()
+}
+
+#[test]
+fn the_file_is_taken_by_its_case_and_by_no_other() {
+    let place = tempfile::tempdir().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["calibrate", "eel-calibration", "--out", "."])
+        .current_dir(place.path())
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(told.contains("held out") && told.contains("added_mass"), "{told}");
+    let text = std::fs::read_to_string(place.path().join("calibrated.toml")).unwrap();
+    let table: toml::Table = text.parse().unwrap();
+    let facts = table["calibrated"].as_table().unwrap();
+    assert_eq!(facts["from"].as_array().unwrap().len(), 2, "{text}");
+    assert!(facts["coefficient"][0]["uncertainty"].as_float().unwrap() > 0.0);
+    let own = "extends = 'eel-calibration'\nreduced.calibrated.file = 'calibrated.toml'\n";
+    let file = written(place.path(), "own.toml", own);
+    // Those that are written are not replaced
+    let taken = file.case().reduced_model().coefficients_of("");
+    assert_eq!(taken[0], 1.0);
+    let bare = "title = 't'\ngeometry = 'planar'
+fluid = { model = 'navier-stokes', density = 1000.0, viscosity = 1e-3 }
+time.unsteady = { step = 0.01, end = 1.0 }
+reduced = { loads = 'links', calibrated = { file = 'calibrated.toml' } }
+[[swimmer]]
+name = 'eel'
+kind.chain = { links = [[0.06, 0.015], [0.06, 0.015], [0.06, 0.015]], gap = 0.01, joints = [
+    { bent.angle.sine = { amplitude = 0.5, period = 2.0 } },
+    { bent.angle.sine = { amplitude = 0.5, period = 2.0 } },
+] }
+";
+    let file = written(place.path(), "bare.toml", bare);
+    let taken = file.case().reduced_model().coefficients_of("");
+    assert!((taken[0] / 0.7 - 1.0).abs() < 0.02, "{taken:?}");
+    assert!(check(&file).is_empty(), "{:?}", check(&file));
+    let again = file.case().to_toml().unwrap();
+    let again = Case::parse("again.toml", &again, &[]).unwrap();
+    assert_eq!(again.case(), file.case());
+    // Another gait is warned about, another swimmer and another law are refused
+    let other = bare.replace("amplitude = 0.5, period = 2.0", "amplitude = 0.5, period = 1.0");
+    let found = check(&written(place.path(), "gait.toml", &other));
+    assert!(found.len() == 1 && found[0].severity == Severity::Warning, "{found:?}");
+    assert!(found[0].message.contains("period"), "{found:?}");
+    let found = check(&written(place.path(), "name.toml", &bare.replace("'eel'", "'snake'")));
+    let keys: Vec<&str> = found.iter().map(|one| one.key.as_str()).collect();
+    assert_eq!(keys, ["reduced.calibrated.file"]);
+    std::fs::write(place.path().join("law.toml"), bare.replace("'links'", "'fossen'")).unwrap();
+    let error = Case::read(place.path().join("law.toml").to_str().unwrap(), &[]).unwrap_err();
+    assert!(error.to_string().contains("law \"links\""), "{error}");
+}
+
+#[test]
+fn bad_calibrations_are_refused_by_key_and_line() {
+    let wrong = |settings: &[&str]| -> Vec<String> {
+        let found = check(&read("eel-calibration", settings));
+        let errors = found.into_iter().filter(|one| one.severity == Severity::Error);
+        errors.map(|one| one.key).collect()
+    };
+    assert!(wrong(&[]).is_empty(), "{:?}", wrong(&[]));
+    let bounds = "calibration.bounds.added_mass=[1.5, 3.0]";
+    assert_eq!(wrong(&[bounds]), ["calibration.bounds.added_mass"]);
+    assert_eq!(wrong(&["calibration.fit.0=aded_mass"])[0], "calibration.fit.0");
+    assert_eq!(
+        wrong(&["calibration.bounds.normal_linear=[0.0, 1.0]"]),
+        ["calibration.bounds.normal_linear"]
+    );
+    assert_eq!(wrong(&["calibration.from.0.rate=30.0"]), ["calibration.from.0"]);
+    assert_eq!(wrong(&["calibration.from.0.holdout=true"]), ["calibration.from"]);
+    assert_eq!(wrong(&["calibration.by=loads"]), ["calibration.from.0.csv"]);
+    assert_eq!(wrong(&["calibration.tracks=['eel-9.x']"]), ["calibration.tracks.0"]);
+    let refused =
+        |settings: &[&str]| calibrate(&read("eel-calibration", settings)).unwrap_err().to_string();
+    let missing = refused(&["calibration.from.0.time=when"]);
+    assert!(missing.contains("calibration.from.0") && missing.contains("`when`"), "{missing}");
+    let place = tempfile::tempdir().unwrap();
+    let rows = "t,x\n0.0,1.0\n0.1,1.1\n0.1,1.2\n0.2,1.3\n";
+    std::fs::write(place.path().join("rows.csv"), rows).unwrap();
+    let text = "extends = 'eel-calibration'
+[calibration]
+fit = ['added_mass']
+from = [{ csv = 'rows.csv', time = 't', columns = { 'eel-1.x' = 'x' } }]
+";
+    let file = written(place.path(), "falls.toml", text);
+    let error = calibrate(&file).unwrap_err().to_string();
+    assert!(error.contains("line 4") || error.contains("rise"), "{error}");
+    let nothing = calibrate(&read("robot-eel", &[])).unwrap_err().to_string();
+    assert!(nothing.contains("[calibration]"), "{nothing}");
+}
