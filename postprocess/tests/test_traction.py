@@ -152,7 +152,7 @@ def test_tractions_of_a_computed_flow_add_up_to_its_force(
         float(np.abs(one.traction).max())
         for one in traction.surfaces_of(computed_run, computed_run.field())
     )
-    assert (row["surface"], row["is"]) == ("squirmer", "body")
+    assert (row["surface"], row["body"], row["is"]) == ("squirmer", "squirmer", "body")
     assert (side["surface"], side["is"], side["method"]) == ("wall", "side", "recovered")
     assert row["method"] == "residual"
     assert abs(row["traction.x"] - row["force.x"]) < 1e-10 * largest

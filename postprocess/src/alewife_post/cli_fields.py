@@ -192,7 +192,9 @@ def write_fields(options: argparse.Namespace) -> None:
     out = options.out or Path(f"{run.path.resolve().name}-fields")
     found = exports.write_fields(run, options.time, out)
     if options.json:
-        print(json.dumps(plain(found.rows), indent=2))
+        # `body` is what `surface` was called when there were bodies alone
+        rows = [{"body": row["surface"], **row} for row in found.rows]
+        print(json.dumps(plain(rows), indent=2))
         return
     if found.rows:
         print(as_text(found.rows))

@@ -118,7 +118,7 @@ def cut(field: Field, one: traction.Surface, plane: Plane) -> Columns:
     curves = sections.curves(sliced)
     if not curves:
         raise ValueError(f"{plane.text} does not cut {one.facets.name}")
-    for nth, points in enumerate(curves):
+    for nth, points in enumerate(_forwards(one) for one in curves):
         nearest = [sliced.find_closest_point(point) for point in points]
         steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
         columns: Columns = {} if len(curves) == 1 else {"part": np.full(len(points), float(nth))}
@@ -131,6 +131,12 @@ def cut(field: Field, one: traction.Surface, plane: Plane) -> Columns:
             columns[name] = np.asarray(sliced.point_data[name])[nearest]
         found.append(columns)
     return {name: np.concatenate([part[name] for part in found]) for name in found[0]}
+
+
+def _forwards(points: Array) -> Array:
+    """A curve `(n, 3)` from its end of smaller x, or y, or z, along which it goes farthest."""
+    away = points[-1] - points[0]
+    return points[::-1] if away[np.argmax(np.abs(away))] < 0.0 else points
 
 
 def _columns(field: Field, one: traction.Surface, rows: Array) -> Columns:
