@@ -26,7 +26,7 @@ impl Swim {
     /// That of a case that has been checked.
     ///
     /// # Errors
-    /// As [`Batch::open`].
+    /// As `Batch::open`.
     pub fn open(file: &CaseFile) -> Result<Self, EnvironmentError> {
         let common = Common::open(file)?;
         let task = &common.task;
