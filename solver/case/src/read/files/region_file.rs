@@ -8,7 +8,7 @@ use alewife_mesh::spatial::{
 };
 use alewife_mesh::{MeshError, Point, Sizing};
 
-use super::read_mesh::{Unreadable, bytes_of};
+use super::surface_file::{NamedFile, read_named};
 use crate::spec::mesh_file::{Contents, MeshFile, NamedSolid, RegionSpec, SidePart};
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
 use crate::{Case, DomainSpec, Geometry};
@@ -36,26 +36,10 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
     let domain = root.table_mut().and_then(|entries| entries.get_mut("domain"));
     let surface = domain.and_then(TomlNode::table_mut).and_then(|all| all.get_mut("surface"));
     let Some(entries) = surface.and_then(TomlNode::table_mut) else { return Ok(()) };
-    let Some(file) = entries.get("file").filter(|file| file.text().is_some()).cloned() else {
+    let Some(NamedFile { file, content }) = read_named(entries, NamedTriangles::read)? else {
         return Ok(());
     };
-    let refused = |message: String, help: &str| TreeError {
-        origin: file.origin.clone(),
-        message,
-        help: help.to_owned(),
-    };
-    if entries.contains_key("data") {
-        let message = "the surface has both `file` and `data`".to_owned();
-        return Err(refused(message, "give `file`: runs write `data` in its place"));
-    }
-    let name = file.text().unwrap_or_default();
-    let bytes = bytes_of(name, &file.origin).map_err(|Unreadable { message, .. }| {
-        let help =
-            "give the path of an STL, OBJ or PLY file, relative to the file in which it is written";
-        refused(message, help)
-    })?;
-    let NamedTriangles { mesh, groups } = NamedTriangles::read(&bytes)
-        .map_err(|fault| refused(format!("{name}: {fault}"), fault.remedy()))?;
+    let NamedTriangles { mesh, groups } = content;
     let node = |value: TomlValue| TomlNode { value, ..file.clone() };
     let solid = |name: String, n: usize| {
         let n = i64::try_from(n).unwrap_or(i64::MAX);

@@ -1,5 +1,7 @@
 //! Surfaces from files: `surface = { file = "fish.stl" }` becomes the triangles in the file, and these a solid.
 
+use std::collections::BTreeMap;
+
 use alewife_mesh::spatial::{SurfaceFault, TriangleMesh};
 
 use super::read_mesh::{Unreadable, bytes_of};
@@ -7,22 +9,32 @@ use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
 use crate::{Case, ShapeSpec};
 
-/// Puts the triangles of a file in the place of its name, so that a case stands for itself.
+/// What a file of triangles holds, and the key that names it.
+pub(super) struct NamedFile<T> {
+    /// The path as it is written.
+    pub file: TomlNode,
+    /// What was read.
+    pub content: T,
+}
+
+/// Reads the file of triangles that a surface names; nothing of a surface that names none.
 ///
 /// # Errors
-/// When the file cannot be read, or holds no triangles.
-pub fn resolve(surface: &mut TomlNode) -> Result<(), TreeError> {
-    let Some(entries) = surface.table_mut() else { return Ok(()) };
-    // A path of another type is told of when the case is typed
-    let Some(file) = entries.get("file").filter(|file| file.text().is_some()).cloned() else {
-        return Ok(());
+/// When there are triangles beside the name, or the file cannot be read.
+pub(super) fn read_named<T>(
+    surface: &BTreeMap<String, TomlNode>,
+    read: impl FnOnce(&[u8]) -> Result<T, SurfaceFault>,
+) -> Result<Option<NamedFile<T>>, TreeError> {
+    // A path of another type is refused when the case is typed
+    let Some(file) = surface.get("file").filter(|file| file.text().is_some()).cloned() else {
+        return Ok(None);
     };
     let refused = |message: String, help: &str| TreeError {
         origin: file.origin.clone(),
         message,
         help: help.to_owned(),
     };
-    if entries.contains_key("data") {
+    if surface.contains_key("data") {
         let message = "the surface has both `file` and `data`".to_owned();
         return Err(refused(message, "give `file`: runs write `data` in its place"));
     }
@@ -32,10 +44,22 @@ pub fn resolve(surface: &mut TomlNode) -> Result<(), TreeError> {
             "give the path of an STL, OBJ or PLY file, relative to the file in which it is written";
         refused(message, help)
     })?;
-    let mesh = TriangleMesh::read(&bytes)
-        .map_err(|fault| refused(format!("{name}: {fault}"), fault.remedy()))?;
+    let content =
+        read(&bytes).map_err(|fault| refused(format!("{name}: {fault}"), fault.remedy()))?;
+    Ok(Some(NamedFile { file, content }))
+}
+
+/// Puts the triangles of a file in the place of its name, so that a case stands for itself.
+///
+/// # Errors
+/// When the file cannot be read, or holds no triangles.
+pub fn resolve(surface: &mut TomlNode) -> Result<(), TreeError> {
+    let Some(entries) = surface.table_mut() else { return Ok(()) };
+    let Some(NamedFile { file, content }) = read_named(entries, TriangleMesh::read)? else {
+        return Ok(());
+    };
     entries.remove("file");
-    let data = TomlNode { value: TomlValue::String(mesh.to_line()), ..file };
+    let data = TomlNode { value: TomlValue::String(content.to_line()), ..file };
     entries.insert("data".to_owned(), data);
     Ok(())
 }
