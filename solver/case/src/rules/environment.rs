@@ -209,7 +209,7 @@ randomise = [{ key = "fluid.viscosity", law.log-uniform = [0.05, 0.2] }]
 reach = 0.1
 "#;
 
-    /// All that is told of the environment.
+    /// All that the environment reports.
     fn told(setting: &str) -> String {
         let text = CASE.replace("[references]\nfile = \"none.csv\"\n", "");
         let settings = ["reference=[]".to_owned(), setting.to_owned()];

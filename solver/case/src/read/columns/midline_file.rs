@@ -48,7 +48,7 @@ fn resolve_below(node: &mut TomlNode) -> Result<(), TreeError> {
 
 fn resolve_midline(midline: &mut TomlNode) -> Result<(), TreeError> {
     let Some(entries) = midline.table_mut() else { return Ok(()) };
-    // A path of another type is told of when the case is typed
+    // A path of another type is refused when the case is typed
     let Some(file) = entries.get("file").filter(|file| file.text().is_some()).cloned() else {
         return Ok(());
     };

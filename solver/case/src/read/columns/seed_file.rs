@@ -24,7 +24,7 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
 
 fn resolve_one(tracer: &mut TomlNode) -> Result<(), TreeError> {
     let Some(entries) = tracer.table_mut() else { return Ok(()) };
-    // A path of another type is told of when the case is typed
+    // A path of another type is refused when the case is typed
     let Some(file) = entries.get("file").filter(|file| file.text().is_some()).cloned() else {
         return Ok(());
     };

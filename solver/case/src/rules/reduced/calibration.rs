@@ -155,7 +155,7 @@ fn of_file(findings: &mut Findings<'_>, key: &str, record: &RecordSpec) {
     }
 }
 
-/// A calibrated file is of this swimmer, and told of where its gait is another.
+/// A calibrated file is of this swimmer; a gait outside its range is warned about.
 fn origin(findings: &mut Findings<'_>, calibrated: &CalibratedSpec) {
     let model = findings.model();
     let bodies: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
