@@ -111,6 +111,10 @@ struct Refused {
     help: String,
 }
 
+/// Length of a region over the size of its cells from which on its unit of length is asked for: it would have more
+/// cells than any other one.
+const MUCH_LARGER: f64 = 1000.0;
+
 /// The mesh inside a surface.
 fn fill(spec: &RegionSpec, sizing: &Sizing<3>) -> Result<Contents, Refused> {
     let of_surface = |fault: SurfaceFault| Refused {
@@ -120,8 +124,10 @@ fn fill(spec: &RegionSpec, sizing: &Sizing<3>) -> Result<Contents, Refused> {
     };
     let data = spec.data.as_deref().unwrap_or_default();
     let mesh = TriangleMesh::from_line(data).map_err(of_surface)?.scaled(spec.scale);
+    let length = length_of(&mesh);
     let Sides { names, of } = sides(spec, &mesh)?;
     let region = Region::new(mesh, names, of, spec.smooth).map_err(of_surface)?;
+    let unit = unit(length, sizing.size, spec.scale);
     let of_mesh = |error: MeshError| {
         Refused {
         key: match error {
@@ -142,11 +148,40 @@ fn fill(spec: &RegionSpec, sizing: &Sizing<3>) -> Result<Contents, Refused> {
                 "the inside of the surface would have more than {MOST_CELLS:e} cells, by sizes and by how its wall \
                  bends and narrows"
             ),
-            help: "write a larger size, fewer gap_layers, or a larger mesh.scale".to_owned(),
+            help: "write a larger size, fewer gap_layers, or a larger mesh.scale".to_owned()
+                + &unit,
         });
     }
     let mesh = generate_inside(&region, sizing).map_err(of_mesh)?;
     Ok(Contents::of_region(mesh))
+}
+
+/// The length of a surface along the axis on which it is longest (m).
+fn length_of(mesh: &TriangleMesh) -> f64 {
+    let along = |axis: usize| {
+        let parts = mesh.vertices.iter().map(|vertex| vertex[axis]);
+        let [low, high] = parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| {
+            [part.min(low), part.max(high)]
+        });
+        high - low
+    };
+    (0..3).map(along).fold(0.0, f64::max)
+}
+
+/// What else may be wrong with a region that is far larger or smaller than the sizes of its cells (m).
+fn unit(length: f64, size: f64, scale: f64) -> String {
+    let factor = if length >= MUCH_LARGER * size {
+        1e-3
+    } else if length <= size {
+        1e3
+    } else {
+        return String::new();
+    };
+    format!(
+        "; the surface is about {length:.3e} long and mesh.size {size:.3e}: where lengths of its file are in another unit \
+         than the case, such as mm, write scale = {:?}",
+        scale * factor
+    )
 }
 
 /// Names of sides, and that of each triangle.
@@ -285,6 +320,15 @@ boundary = {{ {boundary} }}
         let again = Case::parse("t.toml", &file.case().to_toml().unwrap(), &[]).unwrap();
         assert_eq!(again.case(), file.case());
         assert_eq!(again.case().given_mesh().unwrap().n_cells(), mesh.n_cells());
+    }
+
+    #[test]
+    fn a_surface_in_another_unit_of_length_is_asked_about() {
+        for (scale, said) in [("1e3", "scale = 1.0"), ("1e-3", "scale = 1.0")] {
+            let keys = format!("file = 'box.obj'\nscale = {scale}");
+            let refused = read(BOX, &keys, GROUPS, "0.5").unwrap_err();
+            assert!(refused.contains("another unit") && refused.contains(said), "{refused}");
+        }
     }
 
     #[test]
