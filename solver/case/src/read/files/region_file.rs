@@ -168,19 +168,15 @@ fn length_of(mesh: &TriangleMesh) -> f64 {
     (0..3).map(along).fold(0.0, f64::max)
 }
 
-/// What else may be wrong with a region that is far larger or smaller than the sizes of its cells (m).
+/// What else may be wrong with a region that is far larger than the sizes of its cells (m).
 fn unit(length: f64, size: f64, scale: f64) -> String {
-    let factor = if length >= MUCH_LARGER * size {
-        1e-3
-    } else if length <= size {
-        1e3
-    } else {
+    if length < MUCH_LARGER * size {
         return String::new();
-    };
+    }
     format!(
         "; the surface is about {length:.3e} long and mesh.size {size:.3e}: where lengths of its file are in another unit \
          than the case, such as mm, write scale = {:?}",
-        scale * factor
+        scale * 1e-3
     )
 }
 
@@ -324,10 +320,19 @@ boundary = {{ {boundary} }}
 
     #[test]
     fn a_surface_in_another_unit_of_length_is_asked_about() {
-        for (scale, said) in [("1e3", "scale = 1.0"), ("1e-3", "scale = 1.0")] {
+        let Err(refused) = read(BOX, "file = 'box.obj'\nscale = 1e3", GROUPS, "0.5") else {
+            panic!("has too many cells")
+        };
+        assert!(refused.contains("another unit") && refused.contains("scale = 1.0"), "{refused}");
+        // One that is far too small is meshed, and asked about
+        for (scale, is_asked) in [("1e-3", true), ("1.0", false)] {
             let keys = format!("file = 'box.obj'\nscale = {scale}");
-            let refused = read(BOX, &keys, GROUPS, "0.5").unwrap_err();
-            assert!(refused.contains("another unit") && refused.contains(said), "{refused}");
+            let Ok(file) = read(BOX, &keys, GROUPS, "0.5") else { panic!("can be meshed") };
+            let asked = check(&file).into_iter().find(|one| one.key == "domain.surface");
+            assert_eq!(
+                asked.as_ref().is_some_and(|one| one.help.contains("scale = 1.0")),
+                is_asked
+            );
         }
     }
 

@@ -98,7 +98,7 @@ boundary = {{ left = 'no-slip', right = 'no-slip', top = 'no-slip', bottom = 'no
 name = 'a'
 center = [0, 0, 0]
 motion = 'held'
-shape.surface = {{ file = 'body.obj', smooth = 120{scale} }}
+shape.surface = {{ file = 'body.obj', smooth = 180{scale} }}
 "
     );
     let path = directory.path().join("t.toml");
