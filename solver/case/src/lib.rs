@@ -46,7 +46,7 @@ pub use spec::body::orientation::Orientation;
 pub use spec::body::rod::{Activation, AlongBody, Attached, Hold, RestShape, RodSpec};
 pub use spec::body::spring::SpringSpec;
 pub use spec::body::squirmer::SquirmerGait;
-pub use spec::body::stroke::{Stroke, smooth_ramp};
+pub use spec::body::stroke::{Cycle, Stroke, smooth_ramp};
 pub use spec::body::swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use spec::body::{Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, PartSpec, ShapeSpec};
 pub use spec::case::Case;

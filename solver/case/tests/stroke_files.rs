@@ -133,3 +133,139 @@ fn angles_of_a_file_have_unit_sign_scale_and_offset() {
         assert!(said.iter().all(|part| message.contains(part)), "{more}: {message}");
     }
 }
+
+/// The stroke of the first joint of the case with a file, and with other keys in `file`.
+fn with_file(rows: &str, more: &str) -> Result<alewife_case::CaseFile, String> {
+    with_case(CASE, rows, more)
+}
+
+fn with_case(case: &str, rows: &str, more: &str) -> Result<alewife_case::CaseFile, String> {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("robot.toml");
+    fs::write(directory.path().join("log.csv"), rows).unwrap();
+    let text = case.replace("../log.csv", "log.csv");
+    fs::write(&path, text.replace("column = \"q\"", &format!("column = \"q\"{more}"))).unwrap();
+    Case::read(path.to_str().unwrap(), &[]).map_err(|error| error.to_string())
+}
+
+fn first_angle(file: &alewife_case::CaseFile, time: f64) -> [f64; 2] {
+    let JointKind::Bent { angle, .. } = &file.model.joints[0].kind else { panic!("is bent") };
+    angle.at(time)
+}
+
+/// All that is said of a case, one below the other.
+fn said(file: &alewife_case::CaseFile) -> String {
+    let found = alewife_case::check(file);
+    found.iter().map(|one| format!("{}: {} {}\n", one.key, one.message, one.help)).collect()
+}
+
+#[test]
+fn a_file_of_one_period_comes_again() {
+    use std::f64::consts::TAU;
+    let rows = |n: u32, unit: f64| {
+        let row = |i: u32| {
+            let time = 0.25 * f64::from(i) / f64::from(n);
+            format!("{},{}\n", (time + 3.0) / unit, 0.3 * (TAU * time / 0.25).sin())
+        };
+        "t,q\n".to_owned() + &(0..=n).map(row).collect::<String>()
+    };
+    // From another time, in milliseconds, with and without the row that closes it
+    let closed = with_file(&rows(40, 1e-3), ", time_scale = 1e-3, time_offset = -3, period = 0.25");
+    let closed = closed.unwrap();
+    let open = rows(40, 1e-3);
+    let open = open.trim_end().rsplit_once('\n').unwrap().0;
+    let open = with_file(open, ", time_scale = 1e-3, time_offset = -3, period = 0.25").unwrap();
+    for time in [0.0, 0.01, 0.13, 0.24, 0.25, 0.61, 1.0, 37.4] {
+        let exact = 0.3 * (TAU * time / 0.25).sin();
+        for file in [&closed, &open] {
+            assert!((first_angle(file, time)[0] - exact).abs() < 1e-5, "{time}");
+        }
+    }
+    // Neither value nor rate jumps where it begins again
+    let [before, after] = [0.25 - 1e-9, 0.25 + 1e-9].map(|time| first_angle(&closed, time));
+    assert!((before[0] - after[0]).abs() < 1e-7 && (before[1] - after[1]).abs() < 1e-5);
+    assert!(said(&closed).lines().all(|line| !line.contains("its times")), "{}", said(&closed));
+    // It stands for itself when it is read back
+    let back = Case::parse("case.toml", &closed.case().to_toml().unwrap(), &[]).unwrap();
+    assert_eq!(back.case(), closed.case());
+    let JointKind::Bent { angle, .. } = &back.model.joints[0].kind else { panic!("is bent") };
+    assert_eq!(angle.period(), Some(0.25));
+}
+
+#[test]
+fn what_is_no_period_is_refused_where_it_stands() {
+    let rows = "t,q\n0,0\n0.1,0.2\n0.2,-0.1\n0.3,0.9\n";
+    for (more, parts) in [
+        (", period = 0.2", ["`period` is 0.2", "from 0 to 0.3"]),
+        (", period = 0.3, scale = -1", ["`period` of 0.3", "-0.9"]),
+        (", period = 0", ["period` is 0", "positive"]),
+        (", time_scale = -1", ["time_scale` is -1", "positive"]),
+        (", period = 'long'", ["period", "long"]),
+        (", time_unit = 'ms'", ["time_unit", "time_scale"]),
+    ] {
+        // The last value is as far from the first one as no two rows are
+        let rows = if more.contains("0.3") { rows.replace("-0.1", "0.4") } else { rows.to_owned() };
+        let error = with_file(&rows, more).unwrap_err();
+        assert!(error.contains("robot.toml:14"), "{error}");
+        assert!(parts.iter().all(|part| error.contains(part)), "{more}: {error}");
+    }
+}
+
+#[test]
+fn a_clock_in_another_unit_is_asked_about() {
+    // 2 s at 100 Hz, of which a run of 1 s takes the half
+    let rows = |unit: f64, name: &str| {
+        let row = |i: u32| format!("{},{}\n", f64::from(i) * 0.01 / unit, f64::from(i % 7) * 0.01);
+        format!("{name},q\n") + &(0..=200).map(row).collect::<String>()
+    };
+    let asks =
+        |rows: &str, more: &str| said(&with_file(rows, more).unwrap()).contains("time_scale");
+    assert!(!asks(&rows(1.0, "t"), ""));
+    assert!(asks(&rows(1e-3, "t"), "") && asks(&rows(1e-6, "t"), ""));
+    let message = said(&with_file(&rows(1e-6, "t"), "").unwrap());
+    assert!(message.contains("time_scale = 1e-6") && message.contains("201 rows"), "{message}");
+    assert!(!asks(&rows(1e-3, "t"), ", time_scale = 1e-3"), "it is said");
+    assert!(!asks(&rows(1e-3, "t"), ", time_scale = 1"), "it is meant so");
+    // Long, and as fine as the steps
+    let long: String = (0..=20_000).map(|i| format!("{},0\n", f64::from(i) * 0.1)).collect();
+    assert!(!asks(&("t,q\n".to_owned() + &long), ""));
+    // By its name, whatever its length
+    let named = CASE.replace("time = \"t\"", "time = \"t_ms\"");
+    let by_name = |case: &str| said(&with_case(case, &rows(1e-3, "t_ms"), "").unwrap());
+    assert!(by_name(&named).contains("`t_ms`") && by_name(&named).contains("0.001"));
+    let in_ms = named.replace("title =", "units = { time = \"ms\" }\ntitle =");
+    let in_ms = in_ms.replace("step = 0.1, end = 1.0", "step = 100, end = 1000");
+    assert!(!by_name(&in_ms).contains("time_scale"), "{}", by_name(&in_ms));
+    // One that does not cover the run is refused with the ways
+    let short = said(&with_file("t,q\n0,0\n0.5,0.1\n", "").unwrap());
+    assert!(short.contains("`period`") && short.contains("time_scale"), "{short}");
+    let late = said(&with_file("t,q\n1700,0\n1702,0.1\n", "").unwrap());
+    assert!(late.contains("time_offset = -1700"), "{late}");
+}
+
+#[test]
+fn angles_in_degrees_are_asked_about_by_how_they_swing() {
+    let asks = |case: &str, rows: &str, more: &str| {
+        said(&with_case(case, rows, more).unwrap()).contains(" deg")
+    };
+    // 5 degrees to either side are no turn, and no joint is bent so far by so many radians
+    let wave = |amplitude: f64| {
+        let row = |i: u32| {
+            let time = f64::from(i) * 0.02;
+            format!("{time},{}\n", amplitude * (12.0 * time).sin())
+        };
+        "t,q\n".to_owned() + &(0..=50).map(row).collect::<String>()
+    };
+    assert!(asks(CASE, &wave(5.0), "") && !asks(CASE, &wave(3.0), ""));
+    assert!(
+        !asks(CASE, &wave(5.0), ", unit = \"rad\"") && !asks(CASE, &wave(5.0), ", unit = \"deg\"")
+    );
+    let named = CASE.replace("column = \"q\"", "column = \"q\", column = \"q_deg\"");
+    let named = named.replace("column = \"q\", ", "");
+    let file = |more: &str| {
+        let case = named.replace("\"q_deg\"", &format!("\"q_deg\"{more}"));
+        with_case(&case, &wave(1.0).replace("t,q", "t,q_deg"), "").unwrap()
+    };
+    assert!(said(&file("")).contains("by its name in degrees"), "{}", said(&file("")));
+    assert!(!said(&file(", unit = \"rad\"")).contains("degrees"));
+}

@@ -91,6 +91,9 @@ enum Command {
         /// Make the mesh, and no step on it: no costs
         #[arg(long)]
         no_step: bool,
+        /// Threads of the step; by default those the batch system or the machine grants
+        #[arg(long, short, value_name = "N")]
+        threads: Option<usize>,
     },
     /// Make the mesh of a case, write it as VTU or for Gmsh, and report its quality
     Mesh {
@@ -183,7 +186,8 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
     match command {
         Command::List { long } => library::list(long),
         Command::Show { case, source } => library::show(&case, source),
-        Command::Check { cases, settings, no_mesh, no_step } => {
+        Command::Check { cases, settings, no_mesh, no_step, threads } => {
+            crate::runner::threads::start(threads)?;
             let depth = match (no_mesh, no_step) {
                 (true, _) => check::Depth::Text,
                 (false, true) => check::Depth::Mesh,

@@ -173,3 +173,34 @@ fn a_given_motion_that_cannot_be_made_is_refused_with_its_time() {
     assert!(turning.stderr.contains("turns by 36 rad in a step"), "{}", turning.stderr);
     assert!(turning.stderr.contains("write 6.28319"), "{}", turning.stderr);
 }
+
+#[test]
+fn motions_by_axis_that_cannot_be_made_are_refused_with_their_time() {
+    let by_axis = |motion: &str, end: &str| {
+        let text = moved("velocity = [0.0, 0.0]", end);
+        let motion = format!("motion = {{ {motion} }}");
+        check(&text.replace("motion = { imposed = { velocity = [0.0, 0.0] } }", &motion), &[])
+    };
+    // 7.5 to the left side, and 3 to the other body
+    for (motion, said) in [
+        ("x = { velocity = { value = -1.0 } }", "the boundary"),
+        ("x = { imposed = { steady = { rate = -1.0 } } }", "the boundary"),
+        ("x = { imposed = { sine = { amplitude = 8.0, period = 4.0 } } }", "\"two\" at"),
+        ("x = { velocity = { value = 1.5 } }", "at t = 2,"),
+        ("x = { imposed = { steady = { rate = 1.5 } } }, rotation = \"free\"", "at t = 2,"),
+        // Wherever it is along y
+        ("x = { velocity = { value = -1.0 } }, y = \"free\"", "the boundary"),
+    ] {
+        let found = by_axis(motion, "20.0");
+        assert_refused(&found, &["by its motion \"one\" comes to", said, "before the end at 20"]);
+    }
+    for motion in [
+        "x = { imposed = { sine = { amplitude = 1.0, period = 4.0 } } }",
+        "x = { velocity = { value = 1.0, factor.sine = { period = 2.0 } } }",
+        // The other body may be passed
+        "x = { velocity = { value = 0.2 } }, y = \"free\"",
+        "x = \"free\", rotation = { imposed = { steady = { rate = 1.0 } } }",
+    ] {
+        assert_accepted(&by_axis(motion, "20.0"));
+    }
+}

@@ -123,6 +123,31 @@ fn an_optimum_is_found_and_runs_and_a_search_called_again_is_the_same() {
 }
 
 #[test]
+fn one_process_searches_in_a_directory_and_the_lock_of_a_dead_one_is_taken_over() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    fs::write(at.join("bar.toml"), BAR).unwrap();
+    fs::create_dir(at.join("o")).unwrap();
+    // What a process has left that was killed
+    let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+    fs::write(at.join("o/lock"), format!("process 999999999 on {}\n", host.trim())).unwrap();
+    // As a search holds it, by the lock of the system
+    let lock = fs::File::options().read(true).write(true).open(at.join("o/lock")).unwrap();
+    lock.lock().unwrap();
+    for command in [
+        &["optimise", "bar.toml", "--out", "o"][..],
+        &["run", "bar.toml", "--fidelity", "soft", "--out", "o"],
+    ] {
+        let said = refused(at, command, 74);
+        assert!(said.contains("process 999999999") && said.contains("--out"), "{said}");
+    }
+    assert!(!at.join("o/search.journal").exists());
+    drop(lock);
+    done(at, &["optimise", "bar.toml", "--out", "o", "--quiet"]);
+    assert!(!at.join("o/lock").exists(), "it goes with its process");
+}
+
+#[test]
 fn soft_cases_and_flows_are_not_taken_for_each_other() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();

@@ -23,6 +23,7 @@ use std::sync::Arc;
 
 use self::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
 use self::columns::{midline_file, probe_line, seed_file};
+use self::files::stroke_file::RecordedStroke;
 use self::files::{
     calibrated_file, outline_file, read_mesh, region_file, stroke_file, surface_file,
 };
@@ -58,6 +59,8 @@ pub struct CaseFile {
     pub file: String,
     /// Whether the file has a `[sweep]`.
     pub has_sweep: bool,
+    /// Strokes that were read from files.
+    pub(crate) recorded: Vec<RecordedStroke>,
     root: TomlNode,
 }
 
@@ -249,7 +252,7 @@ impl UntypedCase {
         seed_file::resolve(&mut self.root).map_err(wrong)?;
         probe_line::resolve(&mut self.root).map_err(wrong)?;
         midline_file::resolve(&mut self.root).map_err(wrong)?;
-        stroke_file::resolve(&mut self.root).map_err(wrong)?;
+        let recorded = stroke_file::resolve(&mut self.root).map_err(wrong)?;
         region_file::resolve(&mut self.root).map_err(wrong)?;
         calibrated_file::resolve(&mut self.root).map_err(wrong)?;
         let Completed { root: complete, left_out } = completed(&self.root).map_err(wrong)?;
@@ -269,6 +272,7 @@ impl UntypedCase {
             variants: self.variants,
             file,
             has_sweep: self.sweep.is_some(),
+            recorded,
             root: self.root,
         })
     }

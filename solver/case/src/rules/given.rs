@@ -6,8 +6,10 @@ use super::Findings;
 use super::placement::{coordinates, message};
 use crate::model::numbers::significant;
 use crate::model::speed::norm;
+use crate::spec::body::motion::Lock;
+use crate::spec::body::motion::by_axis::{Driven, DrivenLaw, GivenRate};
 use crate::{
-    Body, Geometry, ImposedMotion, Model, Motion, ShapeSpec, TimeFunction, TimeSettings, Unsteady,
+    Body, DomainSpec, Geometry, Model, Motion, ShapeSpec, TimeFunction, TimeSettings, Unsteady,
 };
 
 /// Times of a run, and of a period, at which bodies are looked at.
@@ -38,13 +40,14 @@ pub fn check(findings: &mut Findings<'_>) {
         return;
     }
     for (index, body) in model.bodies.iter().enumerate() {
-        let Motion::Imposed(_) = body.motion else { continue };
-        if !is_known(model, body) || !(body.translates(model.case.geometry) || body.turns()) {
+        if !is_driven(model, body) || !is_led(model, body) {
             continue;
         }
         let others =
             bodies.iter().copied().filter(|other| may_meet(model, [body, other], time.end));
-        let course = Course { model, time, body, others: others.collect() };
+        let is_known = is_known(model, body);
+        let others = others.filter(|_| is_known).collect();
+        let course = Course { model, time, body, others };
         let Some(Trouble { time: when, error }) = course.first_trouble() else { continue };
         findings.error(
             &format!("body.{index}.motion"),
@@ -55,8 +58,8 @@ pub fn check(findings: &mut Findings<'_>) {
                 significant(when),
                 time.end,
             ),
-            "end before, lead it back with motion.imposed.factor, or enlarge the domain: no contact holds a \
-             body whose motion is given",
+            "end before, lead it back, by motion.imposed.factor or another motion, or enlarge the domain: no \
+             contact holds a body whose motion is given",
         );
     }
     if let (None, true) = (&time.adaptive, findings.has_no_error()) {
@@ -102,16 +105,54 @@ fn met(error: &MeshError) -> String {
     }
 }
 
+/// Whether a motion of a body is given, and it does not hang on another one.
+fn is_driven(model: &Model, body: &Body) -> bool {
+    let hangs = || model.joints.iter().any(|joint| joint.child == body.name);
+    let is_imposed = match &body.motion {
+        Motion::Imposed(_) => body.translates(model.case.geometry) || body.turns(),
+        Motion::Free => !body.driven.is_empty(),
+        Motion::Held | Motion::ByAxis(_) => false,
+    };
+    is_imposed && !hangs()
+}
+
+/// Whether it is known where the motions that are given lead a body: all of them, or those across a box, whose sides
+/// are as far away wherever it is along the others.
+fn is_led(model: &Model, body: &Body) -> bool {
+    if is_known(model, body) {
+        return true;
+    }
+    let is_box = matches!(model.case.domain, DomainSpec::Box { .. });
+    let turns = !body.locked.contains(&Lock::Rotation) && !body.is_round();
+    is_box && !turns && are_places_known(model, body)
+}
+
 /// Whether all places of a body are known beforehand.
 fn is_known(model: &Model, body: &Body) -> bool {
+    let is_free = |motion: &&Lock| !body.locked.contains(motion);
+    let is_free_to_go = match body.motion {
+        Motion::Free => model
+            .case
+            .geometry
+            .motions()
+            .iter()
+            .any(|motion| is_free(&motion) && !(*motion == Lock::Rotation && body.is_round())),
+        _ => false,
+    };
+    !is_free_to_go && are_places_known(model, body)
+}
+
+/// Whether the places of a body follow from where its centre is and how it is turned.
+fn are_places_known(model: &Model, body: &Body) -> bool {
     // Of other shapes the centre of mass, about which they turn, is not where the centre is
     let is_ellipse = matches!(body.shape, ShapeSpec::Ellipse { .. } | ShapeSpec::Box { .. });
     let is_centred = body.center_of_mass.iter().all(|part| *part == 0.0);
     let turns_about_center = is_ellipse && is_centred && model.case.geometry == Geometry::Planar;
     match &body.motion {
-        Motion::Free | Motion::ByAxis(_) => false,
+        Motion::ByAxis(_) => false,
         Motion::Held => !body.deforms(),
-        Motion::Imposed(_) => {
+        Motion::Free if body.driven.is_empty() => false,
+        Motion::Free | Motion::Imposed(_) => {
             !body.deforms() && (body.is_round() || turns_about_center || !body.turns())
         }
     }
@@ -120,7 +161,9 @@ fn is_known(model: &Model, body: &Body) -> bool {
 /// Whether two bodies may come near each other by the end of a run (s).
 fn may_meet(model: &Model, [body, other]: [&Body; 2], end: f64) -> bool {
     let excursion = |body: &Body| {
-        let Motion::Imposed(motion) = &body.motion else { return 0.0 };
+        let Motion::Imposed(motion) = &body.motion else {
+            return body.driven.iter().map(|driven| largest_way(driven, end)).sum();
+        };
         let way = motion.factor.as_ref().map_or(end, |factor| factor.largest_integral(end));
         norm(&motion.velocity) * way
     };
@@ -134,6 +177,52 @@ fn are_near(body: &Body, other: &Body, apart: f64) -> bool {
     let parts = body.center.iter().zip(&other.center);
     let distance = parts.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     distance < body.shape.reach() + other.shape.reach() + apart
+}
+
+/// How far a motion that is given leads from where it starts, until a time (s): m or rad.
+fn way(driven: &Driven, time: f64) -> f64 {
+    match &driven.law {
+        DrivenLaw::Way(stroke) => stroke.at(time)[0] - stroke.at(0.0)[0],
+        DrivenLaw::Rate(GivenRate { value, factor }) => {
+            value * factor.as_ref().map_or(time, |factor| factor.integral(time))
+        }
+    }
+}
+
+/// What the ways along an axis until an end (s) do not exceed (m).
+fn largest_way(driven: &Driven, end: f64) -> f64 {
+    match &driven.law {
+        _ if driven.motion == Lock::Rotation => 0.0,
+        DrivenLaw::Way(stroke) => {
+            // A steady one has no range, and goes one way
+            let [least, most] = stroke.range();
+            let range = if (most - least).is_finite() { most - least } else { 0.0 };
+            range.max(way(driven, end).abs())
+        }
+        DrivenLaw::Rate(GivenRate { value, factor }) => {
+            value.abs() * factor.as_ref().map_or(end, |factor| factor.largest_integral(end))
+        }
+    }
+}
+
+/// The time after which a function begins again (s), if it does.
+fn period_of(function: &TimeFunction) -> Option<f64> {
+    match function {
+        TimeFunction::Sine { period, .. } => Some(*period),
+        TimeFunction::Cycle(cycle) => Some(cycle.period),
+        _ => None,
+    }
+}
+
+fn period_of_law(driven: &Driven) -> Option<f64> {
+    match &driven.law {
+        DrivenLaw::Way(stroke) => stroke.period(),
+        DrivenLaw::Rate(rate) => rate.factor.as_ref().and_then(period_of),
+    }
+}
+
+fn least(values: impl Iterator<Item = f64>) -> f64 {
+    values.filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min)
 }
 
 /// A place where a body cannot be.
@@ -157,11 +246,11 @@ impl Course<'_> {
     fn first_trouble(&self) -> Option<Trouble> {
         let end = self.time.end;
         let period = match &self.body.motion {
-            Motion::Imposed(ImposedMotion {
-                factor: Some(TimeFunction::Sine { period, .. }),
-                ..
-            }) => *period,
-            _ => end,
+            Motion::Imposed(motion) => {
+                let factors = [&motion.factor, &motion.angular_factor].into_iter().flatten();
+                least(factors.filter_map(period_of).chain([end]))
+            }
+            _ => least(self.body.driven.iter().filter_map(period_of_law).chain([end])),
         };
         let n_times = TIMES[0].max(TIMES[1] * end / period).min(f64::from(MOST_TIMES)).floor();
         let at = |nth: f64| end * nth / n_times;
@@ -190,19 +279,57 @@ impl Course<'_> {
     /// A body where its motion leads it until a time (s); across periodic sides back into the domain.
     fn at(&self, body: &Body, time: f64) -> Body {
         let mut moved = body.clone();
-        let Motion::Imposed(motion) = &body.motion else { return moved };
+        let Motion::Imposed(motion) = &body.motion else {
+            self.drive(&mut moved, time);
+            return moved;
+        };
         let way = motion.factor.as_ref().map_or(time, |factor| factor.integral(time));
         for (own, part) in moved.center.iter_mut().zip(&motion.velocity) {
             *own += way * part;
         }
+        self.wrap(&mut moved);
+        let turn = motion.factor_of_turn().map_or(time, |factor| factor.integral(time));
+        moved.angle += turn * motion.angular_velocity.z();
+        moved
+    }
+
+    /// Moves a body by its axes as far as that is given; where it is along the others no side is near.
+    fn drive(&self, moved: &mut Body, time: f64) {
+        let extent = self.model.case.extent();
+        if !moved.driven.is_empty() {
+            for (axis, lock) in [Lock::X, Lock::Y, Lock::Z].into_iter().enumerate() {
+                if let (Some(own), false) =
+                    (moved.center.get_mut(axis), moved.locked.contains(&lock))
+                {
+                    *own = extent.min[axis] + 0.5 * extent.lengths()[axis];
+                }
+            }
+        }
+        for driven in std::mem::take(&mut moved.driven) {
+            let way = way(&driven, time);
+            let axis = match driven.motion {
+                Lock::X => 0,
+                Lock::Y => 1,
+                Lock::Z => 2,
+                Lock::Rotation => {
+                    moved.angle += way;
+                    continue;
+                }
+            };
+            if let Some(own) = moved.center.get_mut(axis) {
+                *own += way;
+            }
+        }
+        self.wrap(moved);
+    }
+
+    /// Puts a body back into the domain across periodic sides.
+    fn wrap(&self, moved: &mut Body) {
         let extent = self.model.case.extent();
         for axis in (0..moved.center.len()).filter(|axis| self.model.case.periodic_axes()[*axis]) {
             let (min, period) = (extent.min[axis], extent.lengths()[axis]);
             moved.center[axis] = min + (moved.center[axis] - min).rem_euclid(period);
         }
-        let turn = motion.factor_of_turn().map_or(time, |factor| factor.integral(time));
-        moved.angle += turn * motion.angular_velocity.z();
-        moved
     }
 
     /// Whether the ball around a body is inside the domain.

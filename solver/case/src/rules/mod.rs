@@ -4,7 +4,6 @@
 //! its key; the other files have what relates keys to each other, and names to what they name. Nothing
 //! is meshed or solved.
 
-mod angles;
 mod body;
 mod command;
 mod contact;
@@ -25,6 +24,7 @@ mod reduced;
 mod references;
 mod space;
 mod time;
+mod units;
 
 pub use self::drive::at_rest;
 pub use self::reduced::check_reduced;
@@ -42,8 +42,8 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     if !findings.has_no_error() {
         return findings.into_diagnostics();
     }
-    // What follows from degrees that are taken for radians is told after them
-    angles::check(&mut findings, file);
+    // What follows from degrees or milliseconds that are taken for other units is told after them
+    units::check(&mut findings, file);
     declared::check(&mut findings);
     general::check(&mut findings);
     fluid::check(&mut findings);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::body::command::Command;
+use super::body::stroke::Cycle;
 use super::formula::Formula;
 use super::mesh_file::{MeshFile, RegionSpec};
 #[cfg(test)]
@@ -158,6 +159,9 @@ pub enum TimeFunction {
     /// Cubic polynomials between (time, value, rate) knots, which cover the run; what the columns of
     /// a file become.
     Cubic(Vec<[f64; 3]>),
+    /// Cubic polynomials between (time, value, rate) knots over one period, over and over; what the columns
+    /// of a file with a `period` become.
+    Cycle(Cycle),
     /// What a session or a recording asks for while the run goes on.
     Command(Command),
 }

@@ -25,6 +25,7 @@ impl TimeFunction {
             }
             Self::Table(knots) => table_at(knots, time),
             Self::Cubic(knots) => cubic_at(knots, time)[0],
+            Self::Cycle(cycle) => cycle.at(time)[0],
             Self::Command(command) => command.at(time)[0],
         }
     }
@@ -69,6 +70,7 @@ impl TimeFunction {
                 let before = low * time.min(*first).max(0.0);
                 before + pieces.sum::<f64>() + high * (time - last.max(0.0)).max(0.0)
             }
+            Self::Cycle(cycle) => cycle.integral(time),
             // What will be asked for is not known: as if nothing were
             Self::Command(command) => command.start * time,
         }
@@ -84,6 +86,10 @@ impl TimeFunction {
             }
             Self::Cubic(knots) => {
                 let [least, most] = Stroke::Cubic(knots.clone()).range();
+                end * least.abs().max(most.abs())
+            }
+            Self::Cycle(cycle) => {
+                let [least, most] = cycle.range();
                 end * least.abs().max(most.abs())
             }
             Self::Table(knots) => {

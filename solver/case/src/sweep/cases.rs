@@ -10,11 +10,19 @@ use super::range::MOST_POINTS;
 use super::spec;
 use super::spec::{Block, SweepSpec, SweptKey, overlap};
 use crate::Diagnostic;
+use crate::model::numbers::reynolds;
 use crate::read::case_text::{Located, locate};
 use crate::read::{CaseFile, UntypedCase, wrong};
+use crate::spec::fluid::viscosity::ViscositySpec;
 use crate::text::diagnostic::CaseError;
 use crate::text::setting;
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
+
+/// The number that the viscosity follows where it is swept.
+const REYNOLDS: &str = "numbers.reynolds";
+
+/// The key that follows it.
+const VISCOSITY: &str = "fluid.viscosity";
 
 /// A case of which several keys take several values.
 #[derive(Debug, Clone)]
@@ -152,6 +160,14 @@ impl Sweep {
         for PointSetting { path, value } in self.point(index).settings {
             untyped.root.set(&path, value).map_err(wrong)?;
         }
+        if !self.keys().contains(&REYNOLDS) || self.keys().contains(&VISCOSITY) {
+            return untyped.typed();
+        }
+        let file = untyped.clone().typed()?;
+        let Some(value) = viscosity_by_reynolds(&file) else { return Ok(file) };
+        let Some(node) = untyped.root.get(REYNOLDS).cloned() else { return Ok(file) };
+        let node = TomlNode { value: TomlValue::Float(value), ..node };
+        untyped.root.set(VISCOSITY, node).map_err(wrong)?;
         untyped.typed()
     }
 
@@ -163,6 +179,16 @@ impl Sweep {
         found.extend(self.quantities.iter().filter_map(|one| one.mistake(&file.model)));
         found
     }
+}
+
+/// The viscosity (Pa s) of a Newtonian fluid by which a case has the Reynolds number that it declares, by the scales
+/// it has; nothing where these give none.
+fn viscosity_by_reynolds(file: &CaseFile) -> Option<f64> {
+    let case = file.case();
+    let ViscositySpec::Newtonian(viscosity) = case.fluid.viscosity else { return None };
+    let wanted = case.numbers.reynolds.filter(|number| *number > 0.0)?;
+    let value = viscosity * reynolds(case)? / wanted;
+    (value > 0.0 && value.is_finite()).then_some(value)
 }
 
 /// Adds what the command line sweeps, in the place of what the file says of the same key.

@@ -283,3 +283,31 @@ fn of_settings_of_one_key_the_last_one_holds() {
     assert_eq!(n(&["fluid.viscosity=1:2:3", "fluid.viscosity=5"]), 2);
     assert_eq!(n(&["fluid.viscosity=5", "fluid.viscosity=1:2:3"]), 6);
 }
+
+#[test]
+fn the_viscosity_follows_a_reynolds_number_that_is_swept() {
+    let text = "fluid.model = 'navier-stokes'\nfluid.density = 2.0\nnumbers.reynolds = 20\n\
+                scales = { length = 2.0, velocity = 3.0 }\n";
+    let text = format!("{CASE}{text}");
+    let place = tempfile::tempdir().unwrap();
+    let file = place.path().join("case.toml");
+    std::fs::write(&file, text).unwrap();
+    let settings = ["numbers.reynolds=10,20,50".to_owned()];
+    let sweep = Sweep::read(file.to_str().unwrap(), &settings).unwrap();
+    let viscosities: Vec<f64> = (0..3)
+        .map(|index| {
+            let file = sweep.case(index).unwrap();
+            let mistakes = sweep.check(&file);
+            assert!(mistakes.iter().all(|one| one.key != "numbers.reynolds"), "{mistakes:?}");
+            file.case().reference_viscosity()
+        })
+        .collect();
+    for (computed, reynolds) in viscosities.iter().zip([10.0, 20.0, 50.0]) {
+        assert!((computed * reynolds / 12.0 - 1.0).abs() < 1e-14, "{viscosities:?}");
+    }
+    // Set once, it is a claim, and what gives it is said
+    let set = ["numbers.reynolds=50".to_owned()];
+    let found = crate::check(&crate::Case::read(file.to_str().unwrap(), &set).unwrap());
+    let one = found.iter().find(|one| one.key == "numbers.reynolds").unwrap();
+    assert!(one.help.contains("fluid.viscosity = 0.24"), "{}", one.help);
+}

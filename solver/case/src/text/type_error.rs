@@ -12,6 +12,9 @@ use super::source::Origin;
 /// The alternative that a file becomes.
 pub const KNOTS_OF_A_FILE: &str = "cubic";
 
+/// What a file with a period becomes.
+pub const CYCLE_OF_A_FILE: &str = "cycle";
+
 /// What a value cannot be typed for.
 #[derive(Debug)]
 pub enum Mismatch {

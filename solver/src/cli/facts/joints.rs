@@ -68,7 +68,8 @@ pub(super) fn senses_of_angles(model: &Model, swimmer: &SwimmerModel) -> Option<
     let joints: Vec<usize> =
         swimmer.bodies.iter().filter_map(|body| model.joint_above(*body)).collect();
     let is_read = |joint: &usize| {
-        matches!(&model.joints[*joint].kind, JointKind::Bent { angle: Stroke::Cubic(_), .. })
+        let kind = &model.joints[*joint].kind;
+        matches!(kind, JointKind::Bent { angle: Stroke::Cubic(_) | Stroke::Cycle(_), .. })
     };
     if model.case.geometry != Geometry::Planar || !joints.iter().filter(made).any(is_read) {
         return None;

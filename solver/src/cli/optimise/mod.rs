@@ -24,7 +24,7 @@ pub fn optimise(options: &SearchOptions) -> Result<Exit, Failure> {
     let file = read_case(&options.case, &options.settings.set)?;
     let search = FlowSearch::new(&file)?;
     let out = options.out.clone().unwrap_or_else(|| default_directory(&file));
-    prepare(&out, [LAST, "journal"], options.overwrite)?;
+    let _held = prepare(&out, [LAST, "journal"], options.overwrite)?;
     let mut told = |one: &RoundProgress| {
         if !options.quiet {
             let line = progress_line(&one.progress, Which::Optimisation);

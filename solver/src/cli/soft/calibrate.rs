@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use alewife_reduced::tier::Which;
 
-use super::{SearchOptions, seek};
+use super::{SearchOptions, hold, not_written, seek};
 use crate::case::soft::SoftFile;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::{print_warnings, read_and_check};
@@ -25,13 +25,10 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
     print_warnings(&warnings);
     let default = || Path::new("runs").join(file.full_name().replace('/', "-") + "-calibration");
     let out: PathBuf = options.out().map_or_else(default, Path::to_path_buf);
-    if out.join(FILE).exists() && !options.overwrites() {
-        let message = format!(
-            "{} is finished: write elsewhere by --out, or replace it by --overwrite",
-            out.display()
-        );
-        return Err(Failure::new(Exit::Usage, message));
-    }
+    check_is_open(&out, options)?;
+    let _held = hold(&out)?;
+    // Another process may have come to its end since
+    check_is_open(&out, options)?;
     let found = find(&file).map_err(|error| {
         let exit = match &error {
             CalibrateError::Tree(_) | CalibrateError::Model(ReducedError::Tree(_)) => {
@@ -42,10 +39,20 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
         Failure::new(exit, error.to_string())
     })?;
     say(found.text().trim_end());
-    let written = std::fs::create_dir_all(&out)
-        .and_then(|()| write_atomic(&out.join(FILE), found.to_toml().as_bytes()));
-    written
-        .map_err(|error| Failure::new(Exit::InputOutput, format!("{}: {error}", out.display())))?;
+    write_atomic(&out.join(FILE), found.to_toml().as_bytes())
+        .map_err(|error| not_written(&out, &error))?;
     say(&format!("written to {}", out.display()));
     Ok(Exit::Done)
+}
+
+/// Refuses to write over a calibration, unless it is to be replaced.
+fn check_is_open(out: &Path, options: &SearchOptions) -> Result<(), Failure> {
+    if !out.join(FILE).exists() || options.overwrites() {
+        return Ok(());
+    }
+    let message = format!(
+        "{} is finished: write elsewhere by --out, or replace it by --overwrite",
+        out.display()
+    );
+    Err(Failure::new(Exit::Usage, message))
 }

@@ -9,7 +9,7 @@ mod search;
 
 pub use calibrate::calibrate;
 pub use check::{check, show};
-pub use directory::{not_written, prepare};
+pub use directory::{hold, not_written, prepare};
 pub use rounds::{LoopOptions, rounds};
 pub use run::{Place, run};
 pub use search::{SearchOptions, progress_line, search_failure, seek};

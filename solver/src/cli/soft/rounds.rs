@@ -60,7 +60,7 @@ where
     let out = options.out.clone().unwrap_or_else(default);
     let mut rounds = Rounds::<D>::new(file)?;
     let mut robot = Perturbed::<D>::new(file)?;
-    prepare(&out, [LAST, "journal"], options.overwrite)?;
+    let _held = prepare(&out, [LAST, "journal"], options.overwrite)?;
     let names = rounds.names().join(",");
     let mut table = format!("round,robot,model,gap,loss,{names}\n");
     say(&table.trim_end().replace(',', "  "));

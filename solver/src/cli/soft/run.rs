@@ -42,7 +42,7 @@ where
     let default = || Path::new("runs").join(&file.name);
     let out = place.out.clone().unwrap_or_else(default);
     let model = Model::<D>::new(file)?;
-    prepare(&out, [LAST, "vtu"], place.overwrite)?;
+    let _held = prepare(&out, [LAST, "vtu"], place.overwrite)?;
     let motion = Bodies::simulate(&model.body, &model.plan)
         .map_err(alewife_reduced::tier::TierError::from)?;
     let table = series(&model, &motion).map_err(alewife_reduced::tier::TierError::from)?;

@@ -85,7 +85,7 @@ where
     let default = || Path::new("runs").join(format!("{}-{}", file.name, which.name()));
     let out = options.out.clone().unwrap_or_else(default);
     let job = Job::<D>::new(file, which)?;
-    prepare(&out, [LAST, "journal"], options.overwrite)?;
+    let _held = prepare(&out, [LAST, "journal"], options.overwrite)?;
     let mut told = |progress: &Progress| {
         if !options.quiet {
             complain(&progress_line(progress, which));

@@ -46,7 +46,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let n_threads = options.threads.unwrap_or(1);
     let jobs = n_jobs(options.jobs, n_threads)?;
     let end = WallLimit::end(options.max_walltime);
-    let sweep = options.swept.read()?;
+    let sweep = options.sweep()?;
     let range = match options.index {
         Some(index) => index.range(sweep.n_points())?,
         None => 0..sweep.n_points(),
@@ -173,6 +173,9 @@ impl Calls<'_> {
         command.args(["sweep", "run", &self.options.swept.case]);
         for setting in &self.options.swept.set {
             command.args(["--set", setting]);
+        }
+        for quantity in &self.options.quantities {
+            command.args(["--quantity", quantity]);
         }
         command.arg("--out").arg(self.directory.path());
         command.args(["--index", &(index + 1).to_string()]);

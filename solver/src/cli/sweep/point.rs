@@ -22,7 +22,7 @@ const LOOK_EVERY: Duration = Duration::from_millis(200);
 /// Runs the point of an index from 0.
 pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
     parent::stop_with(options.parent)?;
-    let sweep = options.swept.read()?;
+    let sweep = options.sweep()?;
     let all = 0..sweep.n_points();
     if let Some(named) = options.index {
         named.range(all.len())?;

@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::index::Index;
 use super::swept::Swept;
-use crate::case::WallTime;
+use crate::case::{Sweep, SweepQuantity, WallTime};
+use crate::cli::exit::{Exit, Failure};
 
 /// What `sweep run` is asked for.
 #[derive(Debug, Args)]
@@ -15,6 +16,7 @@ Examples:
   alewife sweep run my.toml --set fluid.viscosity=1:100:9:log
   alewife sweep run my.toml --jobs 4 --threads 2     4 points at once, each with 2 threads
   alewife sweep run my.toml --index 7                point 7 alone, in this process
+  alewife sweep run my.toml --quantity 'mean fish.power' --quantity fish.velocity.x
   alewife sweep run my.toml --index 21-30            10 points, as a task of a job array
 
 Points are counted from 1 and lie in DIR/points/0001, ...: directories as `alewife run` makes them. A
@@ -39,6 +41,10 @@ pub struct Options {
     /// of the batch job
     #[arg(long, value_name = "TIME")]
     pub max_walltime: Option<WallTime>,
+    /// A quantity that the table has besides those of references, with a statistic in front if wanted;
+    /// instead of sweep.quantities of the case. May be repeated
+    #[arg(long = "quantity", value_name = "NAME")]
+    pub quantities: Vec<String>,
     /// Run points again that failed and would, with the same program, fail in the same way
     #[arg(long)]
     pub retry: bool,
@@ -48,4 +54,19 @@ pub struct Options {
     /// The process that runs the sweep: without it, this one stops
     #[arg(long, hide = true)]
     pub parent: Option<u32>,
+}
+
+impl Options {
+    /// Reads the sweep, with the quantities that its table is to have.
+    pub fn sweep(&self) -> Result<Sweep, Failure> {
+        let mut sweep = self.swept.read()?;
+        let parsed = self.quantities.iter().map(|text| SweepQuantity::parse(text));
+        let wanted: Vec<SweepQuantity> = parsed
+            .collect::<Result<_, _>>()
+            .map_err(|reason| Failure::new(Exit::Usage, format!("--quantity: {reason}")))?;
+        if !wanted.is_empty() {
+            sweep.quantities = wanted;
+        }
+        Ok(sweep)
+    }
 }

@@ -206,6 +206,35 @@ fn the_table_has_the_values_of_single_runs() {
 }
 
 #[test]
+fn a_sweep_that_is_run_has_the_quantities_it_is_asked_for() {
+    let place = tempfile::tempdir().unwrap();
+    let axis = format!("{MODE}=0,1");
+    let call = |quantity: &str| {
+        let more = ["--set", &axis, "--jobs", "1", "--quantity", quantity];
+        run(place.path(), &more)
+    };
+    // Before anything is run
+    for (quantity, code, said) in [
+        ("squirmer.speed", 65, "has no quantity `squirmer.speed`"),
+        ("men squirmer.drag", 2, "did you mean `mean`"),
+    ] {
+        let output = call(quantity);
+        assert_eq!(output.status.code(), Some(code), "{}", told(&output));
+        assert!(told(&output).contains(said), "{}", told(&output));
+        assert!(!place.path().join("s").exists());
+    }
+    let columns = |quantity: &str| {
+        let output = call(quantity);
+        assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+        let row = table(&place.path().join("s/sweep.csv")).swap_remove(0);
+        ["squirmer.drag (max)", "squirmer.power (mean)"].map(|name| row.contains_key(name))
+    };
+    assert_eq!(columns("max squirmer.drag"), [true, false]);
+    // Others of points that are done already
+    assert_eq!(columns("mean squirmer.power"), [false, true]);
+}
+
+#[test]
 fn what_cannot_be_run_is_refused_with_what_is_accepted() {
     let place = tempfile::tempdir().unwrap();
     let modes = format!("{MODE}=-3:3:4");

@@ -111,6 +111,10 @@ struct Refused {
     help: String,
 }
 
+/// Length of a region over the size of its cells from which on its unit of length is asked for: it would have more
+/// cells than any other one.
+const MUCH_LARGER: f64 = 1000.0;
+
 /// The mesh inside a surface.
 fn fill(spec: &RegionSpec, sizing: &Sizing<3>) -> Result<Contents, Refused> {
     let of_surface = |fault: SurfaceFault| Refused {
@@ -120,8 +124,10 @@ fn fill(spec: &RegionSpec, sizing: &Sizing<3>) -> Result<Contents, Refused> {
     };
     let data = spec.data.as_deref().unwrap_or_default();
     let mesh = TriangleMesh::from_line(data).map_err(of_surface)?.scaled(spec.scale);
+    let length = length_of(&mesh);
     let Sides { names, of } = sides(spec, &mesh)?;
     let region = Region::new(mesh, names, of, spec.smooth).map_err(of_surface)?;
+    let unit = unit(length, sizing.size, spec.scale);
     let of_mesh = |error: MeshError| {
         Refused {
         key: match error {
@@ -142,11 +148,36 @@ fn fill(spec: &RegionSpec, sizing: &Sizing<3>) -> Result<Contents, Refused> {
                 "the inside of the surface would have more than {MOST_CELLS:e} cells, by sizes and by how its wall \
                  bends and narrows"
             ),
-            help: "write a larger size, fewer gap_layers, or a larger mesh.scale".to_owned(),
+            help: "write a larger size, fewer gap_layers, or a larger mesh.scale".to_owned()
+                + &unit,
         });
     }
     let mesh = generate_inside(&region, sizing).map_err(of_mesh)?;
     Ok(Contents::of_region(mesh))
+}
+
+/// The length of a surface along the axis on which it is longest (m).
+fn length_of(mesh: &TriangleMesh) -> f64 {
+    let along = |axis: usize| {
+        let parts = mesh.vertices.iter().map(|vertex| vertex[axis]);
+        let [low, high] = parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| {
+            [part.min(low), part.max(high)]
+        });
+        high - low
+    };
+    (0..3).map(along).fold(0.0, f64::max)
+}
+
+/// What else may be wrong with a region that is far larger than the sizes of its cells (m).
+fn unit(length: f64, size: f64, scale: f64) -> String {
+    if length < MUCH_LARGER * size {
+        return String::new();
+    }
+    format!(
+        "; the surface is about {length:.3e} long and mesh.size {size:.3e}: where lengths of its file are in another unit \
+         than the case, such as mm, write scale = {:?}",
+        scale * 1e-3
+    )
 }
 
 /// Names of sides, and that of each triangle.
@@ -285,6 +316,24 @@ boundary = {{ {boundary} }}
         let again = Case::parse("t.toml", &file.case().to_toml().unwrap(), &[]).unwrap();
         assert_eq!(again.case(), file.case());
         assert_eq!(again.case().given_mesh().unwrap().n_cells(), mesh.n_cells());
+    }
+
+    #[test]
+    fn a_surface_in_another_unit_of_length_is_asked_about() {
+        let Err(refused) = read(BOX, "file = 'box.obj'\nscale = 1e3", GROUPS, "0.5") else {
+            panic!("has too many cells")
+        };
+        assert!(refused.contains("another unit") && refused.contains("scale = 1.0"), "{refused}");
+        // One that is far too small is meshed, and asked about
+        for (scale, is_asked) in [("1e-3", true), ("1.0", false)] {
+            let keys = format!("file = 'box.obj'\nscale = {scale}");
+            let Ok(file) = read(BOX, &keys, GROUPS, "0.5") else { panic!("can be meshed") };
+            let asked = check(&file).into_iter().find(|one| one.key == "domain.surface");
+            assert_eq!(
+                asked.as_ref().is_some_and(|one| one.help.contains("scale = 1.0")),
+                is_asked
+            );
+        }
     }
 
     #[test]

@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::joints_in_space::{direction, place_of_child};
+use crate::model::numbers::significant;
 use crate::rules::Findings;
 use crate::rules::command::check_command;
 use crate::spec::body::joint::{LABORATORY, PlanarPose, child_pose};
+use crate::spec::body::stroke::Cycle;
 use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Slider, Stroke, TimeSettings};
 
 /// Distance between a child and where its joint puts it, over the size of the joint, that is taken
@@ -283,6 +285,7 @@ pub(crate) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
             }
         }
         Stroke::Cubic(knots) => cubic(findings, &format!("{key}.cubic"), knots),
+        Stroke::Cycle(cycle) => check_cycle(findings, &format!("{key}.cycle"), cycle),
         Stroke::Command(command) => check_command(findings, &format!("{key}.command"), command),
     }
 }
@@ -307,7 +310,27 @@ pub(crate) fn cubic(findings: &mut Findings<'_>, key: &str, knots: &[[f64; 3]]) 
         findings.error(
             key,
             format!("its times go from {first} to {last}, and the run from 0 to {end}"),
-            "give values for the whole run, or lower time.unsteady.end",
+            &if *first > 0.0 && *last - *first >= end {
+                format!("shift the times of a file by time_offset = {}", significant(-first))
+            } else {
+                "give values for the whole run, repeat them by `period` in `file`, write time_scale there where its \
+                 times are in another unit, or lower time.unsteady.end"
+                    .to_owned()
+            },
+        );
+    }
+}
+
+/// Knots of one period.
+pub(crate) fn check_cycle(findings: &mut Findings<'_>, key: &str, cycle: &Cycle) {
+    let Cycle { knots, period } = cycle;
+    let is_rising = knots.len() > 1 && knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+    let ends = [knots.first(), knots.last()].map(|knot| knot.map_or(0.0, |knot| knot[0]));
+    if !is_rising || ends[1] - ends[0] >= *period {
+        findings.error(
+            &format!("{key}.knots"),
+            format!("there must be two knots or more, and their times must rise within {period}"),
+            "write knots = [[t0, v0, rate0], [t1, v1, rate1], ...] over one period, without the first one again",
         );
     }
 }

@@ -66,6 +66,7 @@ fn cycle(stroke: &Stroke) -> f64 {
         Stroke::Legs { period, .. } => *period,
         Stroke::Table(knots) => knots.last().map_or(0.0, |knot| knot[0]),
         Stroke::Cubic(knots) => knots.last().map_or(0.0, |knot| knot[0]),
+        Stroke::Cycle(cycle) => cycle.period,
         // What will be asked for, nobody knows
         Stroke::Command(_) => 0.0,
     }

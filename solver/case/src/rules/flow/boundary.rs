@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::given_mesh;
 use crate::model::region::{normal_axis, opposite};
 use crate::rules::Findings;
-use crate::rules::body::joints::cubic;
+use crate::rules::body::joints::{check_cycle, cubic};
 use crate::rules::command::check_command;
 use crate::spec::formula::numbers;
 use crate::text::type_error::suggestion;
@@ -212,6 +212,9 @@ pub(crate) fn check_factor(findings: &mut Findings<'_>, key: &str, factor: &Time
     }
     if let TimeFunction::Cubic(knots) = factor {
         cubic(findings, &format!("{key}.cubic"), knots);
+    }
+    if let TimeFunction::Cycle(cycle) = factor {
+        check_cycle(findings, &format!("{key}.cycle"), cycle);
     }
     if let TimeFunction::Command(command) = factor {
         check_command(findings, &format!("{key}.command"), command);

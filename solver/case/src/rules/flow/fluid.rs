@@ -3,6 +3,7 @@
 use super::viscosity;
 use crate::model::numbers::{density_ratio, reynolds, significant};
 use crate::rules::Findings;
+use crate::spec::fluid::viscosity::ViscositySpec;
 use crate::{Case, FlowModel, Geometry, Model, Motion};
 
 /// Largest relative difference between a declared number and the derived one.
@@ -113,7 +114,11 @@ fn declared_numbers(findings: &mut Findings<'_>) {
             ratio,
         ),
     ];
-    for (key, name, declared, derived, formula) in numbers {
+    let viscosity = case.reference_viscosity();
+    let is_newtonian = matches!(case.fluid.viscosity, ViscositySpec::Newtonian(_));
+    let has_mass = findings.model().bodies.first().is_some_and(|body| body.mass.is_some());
+    let ways = ["fluid.viscosity", "body.0.density"];
+    for ((key, name, declared, derived, formula), way) in numbers.into_iter().zip(ways) {
         match (declared, derived) {
             (Some(declared), Some(derived)) => {
                 // Written so that a difference that is not a number disagrees, too.
@@ -126,7 +131,17 @@ fn declared_numbers(findings: &mut Findings<'_>) {
                              = {formula}",
                             significant(derived)
                         ),
-                        "correct the declared number, or the values it follows from",
+                        &match way {
+                            "fluid.viscosity" if declared > 0.0 && is_newtonian => format!(
+                                "correct it, write {way} = {}, or sweep {key}, which the viscosity follows",
+                                significant(viscosity * derived / declared)
+                            ),
+                            "body.0.density" if !has_mass => format!(
+                                "correct it, or write {way} = {}",
+                                significant(declared * case.fluid.density)
+                            ),
+                            _ => "correct the declared number, or the values it follows from".to_owned(),
+                        },
                     );
                 }
             }

@@ -1,7 +1,11 @@
 //! `Stroke`: a length, an angle or a torque that is given in time, with its exact rate.
 
+mod cycle;
+
 use std::f64::consts::{PI, TAU};
 use std::iter::successors;
+
+pub use self::cycle::Cycle;
 
 use crate::spec::body::command::Command;
 #[cfg(test)]
@@ -60,6 +64,9 @@ pub enum Stroke {
     /// Cubic polynomials between (time, value, rate) knots, which cover the run; what the columns of
     /// a file become.
     Cubic(Vec<[f64; 3]>),
+    /// Cubic polynomials between (time, value, rate) knots over one period, over and over; what the columns
+    /// of a file with a `period` become.
+    Cycle(Cycle),
     /// What a session or a recording asks for while the run goes on.
     Command(Command),
 }
@@ -104,6 +111,7 @@ impl Stroke {
                 }
             }
             Self::Cubic(knots) => cubic_at(knots, time),
+            Self::Cycle(cycle) => cycle.at(time),
             Self::Command(command) => command.at(time),
         }
     }
@@ -129,6 +137,7 @@ impl Stroke {
             | Self::Sine { .. }
             | Self::Legs { .. }
             | Self::Cubic(_)
+            | Self::Cycle(_)
             | Self::Command(_) => Vec::new(),
         }
     }
@@ -147,6 +156,7 @@ impl Stroke {
     pub fn period(&self) -> Option<f64> {
         match self {
             Self::Sine { period, .. } | Self::Legs { period, .. } => Some(*period),
+            Self::Cycle(cycle) => Some(cycle.period),
             Self::Constant(_)
             | Self::Steady { .. }
             | Self::Table(_)
@@ -172,6 +182,7 @@ impl Stroke {
                 let turns = pairs.flat_map(|pair| Cubic::between(pair[0], pair[1]).extrema());
                 extent(knots.iter().map(|knot| knot[1]).chain(turns))
             }
+            Self::Cycle(cycle) => cycle.range(),
             Self::Command(command) => command.range(),
         }
     }
