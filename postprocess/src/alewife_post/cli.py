@@ -7,7 +7,15 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from alewife_post import cli_fields, cli_look, cli_picture, cli_series, cli_surface, packages
+from alewife_post import (
+    cli_calibration,
+    cli_fields,
+    cli_look,
+    cli_picture,
+    cli_series,
+    cli_surface,
+    packages,
+)
 from alewife_post.read import open_run
 
 if TYPE_CHECKING:
@@ -28,6 +36,7 @@ def main(arguments: list[str] | None = None) -> int:
             ("plot", cli_series.add_plot, cli_series.write_plot),
             ("compare", cli_series.add_compare, cli_series.write_comparison),
             ("inspect", cli_series.add_inspect, cli_series.write_summary),
+            ("calibration", cli_calibration.add_calibration, cli_calibration.write_calibration),
             ("report", cli_fields.add_report, cli_fields.write_report),
             ("line", cli_fields.add_line, cli_fields.write_line),
             ("section", cli_fields.add_section, cli_fields.write_section),

@@ -76,8 +76,9 @@ pub use spec::optimisation::{
     OptimumReference, SearchSettings, WeightedQuantity,
 };
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
-pub use spec::reduced::calibration::{CalibrationSpec, FitBy, RecordFrame, RecordSpec};
+pub use spec::reduced::calibration::{CalibrationSpec, FitBy, FitName, RecordFrame, RecordSpec};
 pub use spec::reduced::law::{Coefficient, LoadLaw};
+pub use spec::reduced::mechanics::{EllipsoidSpec, KeelSpec, ServoSpec, SiteSpec, TendonSpec};
 pub use spec::reduced::parts::{
     BuoyancySpec, CalibratedSpec, ConnectionSpec, LagSpec, ThrusterSpec,
 };

@@ -1,10 +1,10 @@
 //! `Reduced`: the tree of a case, where its bodies are in it, and what its joints are told.
 
 use alewife_reduced::tree::{
-    Command, Connection, Joint, JointKind as Kind, Link, PlacedLoad, Placement, Pose, Root, State,
-    Symmetric, Tree, Weight, Wrench,
+    Command, Connection, Joint, JointKind as Kind, Link, Placement, Pose, Root, State, Symmetric,
+    Tree, Weight, Wrench,
 };
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, UnitVector3, Vector3};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
 use super::ReducedError;
 use super::hung::{Hung, angle_about};
@@ -12,24 +12,8 @@ use super::inertia::{Solid, in_space};
 use super::inputs::pushes::{Propeller, Pull};
 use super::inputs::told::Told;
 use super::law::Law;
+use super::part::{Part, Piece};
 use crate::case::{Body, FlowModel, Geometry, Model, Motion, ReducedSpec};
-
-/// Where a body is in the tree, and what the fluid does to it.
-#[derive(Debug, Clone)]
-pub(super) struct Part {
-    /// Number of its link.
-    pub link: usize,
-    /// Its centre of mass and axes in the frame of the link.
-    pub inside: Pose<f64>,
-    /// Mass (kg), or volume (m3) where there is no inertia.
-    pub mass: f64,
-    /// Inertia about its centre of mass in its axes, of the same density.
-    pub inertia: Matrix3<f64>,
-    pub law: Law,
-    pub coefficients: Vec<f64>,
-    /// Where the law is from the centre of mass, in the axes of the body.
-    pub place: Vector3<f64>,
-}
 
 /// A case as a tree.
 #[derive(Debug, Clone)]
@@ -198,6 +182,8 @@ impl<'a> Builder<'a> {
             }
         }
         self.set_off(&tree, first, &mut start);
+        let tendons = self.tendons(&tree, &parts, &start);
+        let tree = tree.with_tendons(tendons)?;
         let (told, has_inertia) = (self.told, self.has_inertia);
         Ok(Reduced {
             tree,
@@ -227,6 +213,11 @@ impl<'a> Builder<'a> {
             self.push(Link::root(Symmetric::zero()), Told::Nothing, [0.0; 2]);
             self.add_child(None, body)?;
             return Ok(Footing { root: Root::Held, at: Placement::identity() });
+        }
+        if let Some(keel) = self.spec.keel.clone() {
+            let at = Translation3::from(self.keep(body, &keel, &frame));
+            let ground = Isometry3::from_parts(at, UnitQuaternion::identity());
+            return Ok(Footing { root: Root::Held, at: placement_of(&ground) });
         }
         let is_guided = matches!(one.motion, Motion::Imposed(_))
             || !one.locked.is_empty()
@@ -279,13 +270,16 @@ impl<'a> Builder<'a> {
         });
         let law = Law::new(&model.case, &self.spec, &solid);
         let place = law.place(&solid);
-        let met = inside.then(&Pose::at(place));
         let coefficients = self.spec.coefficients_of(&one.name);
-        if let Some(load) = law.load(&coefficients) {
-            link.loads.push(PlacedLoad { pose: Some(met), load });
-        }
-        let (link, inside) = (self.links.len(), *inside);
-        self.parts[body] = Some(Part { link, inside, mass, inertia, law, coefficients, place });
+        let own = self.spec.ellipsoid.iter().filter(|ellipsoid| ellipsoid.body == one.name);
+        let pieces = own.map(|ellipsoid| Piece {
+            law: law.of(ellipsoid.semi_axes),
+            place: in_space(&ellipsoid.position) - solid.center,
+        });
+        let (number, inside, pieces) = (self.links.len(), *inside, pieces.collect());
+        let part = Part { link: number, inside, mass, inertia, law, coefficients, place, pieces };
+        link.loads.extend(part.loads(&part.coefficients));
+        self.parts[body] = Some(part);
     }
 
     /// Hangs a body on its parent, or on the laboratory.
@@ -306,7 +300,10 @@ impl<'a> Builder<'a> {
             on_parent - parent.map_or_else(Vector3::zeros, |one| self.solids[one].center);
         let on_child = on_child - self.solids[child].center;
         let relative = parent_place.rotation.inverse() * child_place.rotation;
-        let hung = Hung::of(&joint.kind, geometry == Geometry::Spatial, &relative)?;
+        let mut hung = Hung::of(&joint.kind, geometry == Geometry::Spatial, &relative)?;
+        if let Some(told) = self.serve(child, &mut hung.joint) {
+            hung.told = told;
+        }
         let start = match &hung.told {
             Told::Given(stroke) => stroke.at(0.0)[0],
             _ if hung.joint.kind == Kind::Slider => {

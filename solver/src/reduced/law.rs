@@ -35,6 +35,11 @@ impl Law {
         }
     }
 
+    /// The same law for an ellipsoid of other semi-axes (m).
+    pub fn of(self, semi_axes: [f64; 3]) -> Self {
+        Self { semi_axes: semi_axes.into(), ..self }
+    }
+
     /// Where it is measured from the centre of mass, in the frame of the body: a vehicle's about the origin of that frame.
     pub fn place(&self, solid: &Solid) -> Vector3<f64> {
         if self.loads == LoadLaw::Fossen { -solid.center } else { solid.middle }

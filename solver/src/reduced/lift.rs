@@ -1,7 +1,7 @@
 //! The tree of a case over any kind of number, with other coefficients: what derivatives by these are made with.
 
 use alewife_reduced::tree::{
-    Drive, Joint, Link, Number, PlacedLoad, Placement, Pose, State, Stops, Symmetric, Tree,
+    Drive, Joint, Link, Number, Placement, Pose, Site, State, Stops, Symmetric, Tendon, Tree,
     TreeError, Weight, real,
 };
 
@@ -61,6 +61,17 @@ fn link<T: Number>(link: &Link<f64>) -> Link<T> {
     }
 }
 
+fn tendon<T: Number>(tendon: &Tendon<f64>) -> Tendon<T> {
+    let site = |site: &Site<f64>| Site { link: site.link, place: site.place.map(real) };
+    Tendon {
+        sites: tendon.sites.iter().map(site).collect(),
+        stiffness: real(tendon.stiffness),
+        damping: real(tendon.damping),
+        rest: real(tendon.rest),
+        pushes: tendon.pushes,
+    }
+}
+
 /// The state that a case starts from.
 pub(super) fn state<T: Number>(state: &State<f64>) -> State<T> {
     let all = |values: &[f64]| values.iter().map(|value| real(*value)).collect();
@@ -84,15 +95,14 @@ impl Reduced {
     /// None that its own tree has not.
     pub fn tree_with<T: Number>(
         &self,
-        coefficients: impl Fn(&[f64]) -> Vec<T>,
+        coefficients: impl Fn(usize, &[f64]) -> Vec<T>,
     ) -> Result<Tree<T>, TreeError> {
         let mut links: Vec<Link<T>> = self.tree.links().iter().map(link).collect();
-        for part in &self.parts {
-            if let Some(load) = part.law.load(&coefficients(&part.coefficients)) {
-                let met = pose(&part.inside.then(&Pose::at(part.place)));
-                links[part.link].loads.push(PlacedLoad { pose: Some(met), load });
-            }
+        for (body, part) in self.parts.iter().enumerate() {
+            let own = coefficients(body, &part.coefficients);
+            links[part.link].loads.extend(part.loads(&own));
         }
-        Ok(Tree::new(self.root, links)?.in_gravity(self.gravity))
+        let tendons = self.tree.tendons().iter().map(tendon).collect();
+        Tree::new(self.root, links)?.in_gravity(self.gravity).with_tendons(tendons)
     }
 }

@@ -1,7 +1,7 @@
 //! Quantities of bodies and joints of a reduced model, under the names of a full run.
 
 use alewife_reduced::tree::compiled::{Looked, look};
-use alewife_reduced::tree::{Pose, State, Twist, Wrench};
+use alewife_reduced::tree::{Drive, Pose, State, Twist, Wrench};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use super::build::Reduced;
@@ -128,7 +128,7 @@ pub(super) fn bodies_after(
     has_loads: bool,
 ) -> Vec<Moving> {
     let Looked { poses, twists, wrenches } = look(&reduced.tree, state, has_loads);
-    let moving = |(number, part): (usize, &super::build::Part)| {
+    let moving = |(number, part): (usize, &super::part::Part)| {
         let (link, twist) = (&poses[part.link], &twists[part.link]);
         let load = wrenches
             .get(part.link)
@@ -165,7 +165,12 @@ pub(super) fn joint(
     let joint = &reduced.tree.links()[link].joint;
     let effort = || {
         let own = -joint.stiffness * (place - joint.rest) - joint.damping * rate;
-        match &reduced.told[link] {
+        let told = &reduced.told[link];
+        if let Drive::Servo { gain, limit } = joint.drive {
+            let asked = gain * (told.command(state.time).rate - rate);
+            return own + asked.clamp(-limit, limit);
+        }
+        match told {
             Told::Given(_) | Told::Way(_) | Told::Rate(..) => state.efforts[velocity],
             Told::Nothing => own,
             Told::Effort(stroke) => own + stroke.at(state.time)[0],

@@ -12,11 +12,12 @@ mod law;
 mod lift;
 mod measure;
 mod mover;
+mod part;
 mod play;
 mod simulate;
 mod swimmer;
 
-pub use calibrate::{CalibrateError, Calibrated, Deviation, calibrate};
+pub use calibrate::{CalibrateError, Calibrated, Deviation, Overlay, calibrate};
 pub use error::ReducedError;
 pub use play::{Player, Playing, Scratch};
 pub use simulate::simulate;

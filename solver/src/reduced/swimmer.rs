@@ -2,8 +2,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::build::{Part, Reduced};
+use super::build::Reduced;
 use super::measure::{Moving, Value};
+use super::part::Part;
 use crate::case::{SwimmerModel, SwimmerQuantity};
 
 /// What is remembered of a swimmer at the end of a step.

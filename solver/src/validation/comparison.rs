@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::statistic::measured_value;
 use crate::case::{Case, Reference};
-use crate::run::RunSummary;
+use crate::run::{RunSummary, Series};
 
 /// What a comparison came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,10 +70,22 @@ pub struct Comparison {
 #[must_use]
 pub fn compare(name: &str, case: &Case, outcome: &RunSummary) -> Vec<Comparison> {
     let cpu_seconds = outcome.timing.cpu.iter().sum();
+    compare_series(name, case, &outcome.series, outcome.n_dofs, cpu_seconds)
+}
+
+/// Compares a series of quantities, of so many unknowns and seconds, with all references of its case.
+#[must_use]
+pub fn compare_series(
+    name: &str,
+    case: &Case,
+    series: &Series,
+    n_dofs: usize,
+    cpu_seconds: f64,
+) -> Vec<Comparison> {
     case.reference
         .iter()
         .map(|reference| {
-            let computed = measured_value(&outcome.series, case, &reference.statistic);
+            let computed = measured_value(series, case, &reference.statistic);
             let computed = computed.map_err(|error| error.to_string()).and_then(|value| {
                 let value = value / reference.expected.per;
                 let is_of_cycle = reference.statistic.quantity.contains(".cycle.");
@@ -86,7 +98,7 @@ pub fn compare(name: &str, case: &Case, outcome: &RunSummary) -> Vec<Comparison>
                     value => Err(format!("{} is {value}", reference.statistic.quantity)),
                 }
             });
-            judge(name, reference, computed, outcome.n_dofs, cpu_seconds)
+            judge(name, reference, computed, n_dofs, cpu_seconds)
         })
         .collect()
 }

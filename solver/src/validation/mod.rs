@@ -9,7 +9,7 @@ mod section;
 mod statistic;
 mod uncertainty;
 
-pub use comparison::{Comparison, Verdict, compare, not_computed};
+pub use comparison::{Comparison, Verdict, compare, compare_series, not_computed};
 pub use evidence::Evidence;
 pub use page::ReportPage;
 pub use report::{comparison_table, comparisons_to_json, count_table, summary};

@@ -193,10 +193,19 @@ impl<T: Number> Equations<T> {
             Drive::Given | Drive::Rate => {}
             Drive::Effort => effort += command.effort,
             Drive::Servo { gain, limit } => {
-                let asked = gain * (command.rate - rate);
-                if asked.re().abs() <= limit.re() {
-                    effort += asked;
-                    damping += gain;
+                // By the rate at the end of the step, so that a stiff one does not swing about its command, and by
+                // the effort that is left then: the rate it starts from would ask for far more than the limit
+                let whole = if stage.is_late { 2.0 * stage.implicit } else { stage.implicit };
+                let mut before = rate;
+                if let Some(lag) = stage.lag() {
+                    before -= lag[velocity];
+                }
+                let asked = gain * (command.rate - before);
+                let inertia = self.matrix[velocity * n + velocity];
+                let reached = asked * inertia / (inertia + gain * whole);
+                if reached.re().abs() <= limit.re() {
+                    self.forces[velocity] += asked;
+                    self.matrix[velocity * n + velocity] += gain * whole;
                 } else {
                     effort += limit * asked.re().signum();
                 }
@@ -246,7 +255,7 @@ impl<T: Number> Equations<T> {
             self.row.iter().zip(values).fold(zero, |sum, (r, v)| sum + *r * *v)
         };
         let stretch = length + along(&stage.shift) - tendon.rest;
-        if stretch.re() <= 0.0 {
+        if stretch.re() <= 0.0 && !tendon.pushes {
             return;
         }
         let mut rate = along(&state.velocities);

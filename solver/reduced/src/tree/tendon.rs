@@ -1,4 +1,4 @@
-//! `Tendon`: an elastic line through sites on links, which pulls and never pushes.
+//! `Tendon`: an elastic line through sites on links, which pulls.
 
 use nalgebra::Vector3;
 
@@ -14,7 +14,7 @@ pub struct Site<T: Number> {
 }
 
 /// A line through sites, straight between them: where it is longer than at rest it has the tension
-/// stiffness (length - rest) + damping length', and where it is slack none.
+/// stiffness (length - rest) + damping length', and where it is slack none unless it pushes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tendon<T: Number> {
     /// Two sites at least, in order.
@@ -25,4 +25,6 @@ pub struct Tendon<T: Number> {
     pub damping: T,
     /// Length at rest (m).
     pub rest: T,
+    /// Whether it has that tension, below zero, where it is shorter than at rest.
+    pub pushes: bool,
 }

@@ -157,6 +157,12 @@ impl<T: Number> Tree<T> {
         &self.links
     }
 
+    /// The tendons.
+    #[must_use]
+    pub fn tendons(&self) -> &[Tendon<T>] {
+        &self.tendons
+    }
+
     /// The velocity of the joint of a link; none of a link that is fixed.
     #[must_use]
     pub fn velocity_of(&self, link: usize) -> Option<usize> {

@@ -139,6 +139,7 @@ impl Motion for OfTendon {
             stiffness: p[3],
             damping: real(0.5),
             rest: p[4],
+            pushes: false,
         };
         let tree = Tree::new(Root::Free, links).and_then(|tree| tree.with_tendons(vec![tendon]));
         let tree = tree.expect("it is a tree");

@@ -137,6 +137,7 @@ fn a_tendon_pulls_as_its_length_says_and_never_pushes() {
         stiffness: 100.0,
         damping: 0.0,
         rest: 0.45,
+        pushes: false,
     };
     let tree = Tree::new(Root::Held, links).and_then(|tree| tree.with_tendons(vec![tendon]));
     let tree = tree.expect("a tree");

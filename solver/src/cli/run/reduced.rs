@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use super::print_comparisons;
 use crate::case::{Case, CaseFile, Severity, check, check_reduced, significant};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::print_warnings;
@@ -12,6 +13,7 @@ use crate::observer::write_atomic;
 use crate::reduced::{ReducedError, simulate};
 use crate::run::Series;
 use crate::runner::recording;
+use crate::validation::compare_series;
 
 /// What a run by the reduced model is asked for.
 pub struct Request<'a> {
@@ -62,13 +64,24 @@ pub fn run(request: &Request<'_>) -> Result<Exit, Failure> {
     write(&out, &file, &series)
         .map_err(|error| Failure::new(Exit::InputOutput, format!("{}: {error}", out.display())))?;
     report(&file, &series);
+    // References of a case with a mesh are those of its flow
+    let is_compared = file.case().is_reduced_only() && !file.case().reference.is_empty();
+    let mut exit = Exit::Done;
+    if is_compared {
+        let rows = compare_series(&file.full_name(), file.case(), &series, 0, 0.0);
+        print_comparisons(&rows);
+        if rows.iter().any(|row| row.verdict.is_failure()) {
+            exit = Exit::OutsideTolerance;
+        }
+    }
+    let compared = if is_compared { "" } else { ", not compared with references" };
     say(&format!(
-        "reduced model: no wakes, no walls, not compared with references; {} steps, {seconds:.3} s on the clock; \
+        "reduced model: no wakes, no walls{compared}; {} steps, {seconds:.3} s on the clock; \
          written to {}",
         series.times.len().saturating_sub(1),
         out.display()
     ));
-    Ok(Exit::Done)
+    Ok(exit)
 }
 
 /// Where the run goes: not over one of the full solver, nor over another unless that is asked for.

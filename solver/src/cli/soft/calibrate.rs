@@ -15,6 +15,9 @@ use crate::reduced::{CalibrateError, ReducedError, calibrate as find};
 /// The file that a calibration of a reduced model writes.
 const FILE: &str = "calibrated.toml";
 
+/// The tracks of its runs and records over those of the model.
+const TRACKS: &str = "tracks.csv";
+
 /// Calibrates a case by what it is.
 pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
     if SoftFile::read_if_soft(options.case(), options.set())?.is_some() {
@@ -39,7 +42,8 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
         Failure::new(exit, error.to_string())
     })?;
     say(found.text().trim_end());
-    write_atomic(&out.join(FILE), found.to_toml().as_bytes())
+    write_atomic(&out.join(TRACKS), found.to_csv().as_bytes())
+        .and_then(|()| write_atomic(&out.join(FILE), found.to_toml().as_bytes()))
         .map_err(|error| not_written(&out, &error))?;
     say(&format!("written to {}", out.display()));
     Ok(Exit::Done)

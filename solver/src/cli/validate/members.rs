@@ -35,7 +35,7 @@ pub fn all_members(names: &[String], only_quick: bool) -> Result<Vec<Member>, Fa
 }
 
 /// The case and its variants that have something to be compared with.
-fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
+pub fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
     let file = Case::read(name, &[])?;
     let mut members = Vec::new();
     if !file.case().reference.is_empty() && (file.case().quick || !only_quick) {

@@ -45,7 +45,7 @@ from a reference by no more than is uncertain in both, which --uncertainty estim
 difference otherwise.
 
 Of soft cases their motion, calibration and optimisation are compared, of steady flows with [optimisation] the
-optimum, where these have references; not on pages.
+optimum, of cases with a reduced model alone its motion, where these have references; not on pages.
 
 The exit code is 20 if a value is outside its band or could not be computed, 65 if there is
 nothing to compare with, and 75 if a signal stopped it: the cases done so far are printed then. A value

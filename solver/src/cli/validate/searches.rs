@@ -1,4 +1,4 @@
-//! Soft cases and optima of steady flows in a validation: what their commands compute, against their references.
+//! Soft cases, reduced models and optima of steady flows in a validation: what is computed, against their references.
 
 use std::path::{Path, PathBuf};
 
@@ -6,9 +6,10 @@ use alewife_reduced::tier::{
     Bodies, Compared as SoftCompared, Job, Model, SolidOf, TierError, Which, compare, series,
 };
 
-use super::super::exit::Failure;
+use super::super::exit::{Exit, Failure};
 use super::super::read::{CheckedCase, read_and_check};
 use super::super::style::complain;
+use super::members::members_of;
 use crate::case::soft::SoftFile;
 use crate::case::soft::spec::ReferenceOf;
 use crate::case::{
@@ -16,7 +17,8 @@ use crate::case::{
 };
 use crate::observer::Origin;
 use crate::optimise::{Compared, FlowSearch};
-use crate::validation::{Comparison, MemberReport, Verdict};
+use crate::reduced::{ReducedError, simulate};
+use crate::validation::{Comparison, MemberReport, Verdict, compare_series};
 
 /// What a validation computes besides runs of flows.
 pub enum Searched {
@@ -24,6 +26,8 @@ pub enum Searched {
     Soft(Box<SoftFile>),
     /// The optimum of a steady flow.
     Optimum(Box<CaseFile>),
+    /// A case or a variant that has a reduced model alone.
+    Reduced(Box<CaseFile>),
 }
 
 /// Names of cases, by what is done with them.
@@ -44,6 +48,12 @@ pub fn split(names: &[String], only_quick: bool) -> Result<Split, Failure> {
         match SoftFile::read_if_soft(name, &[]) {
             Ok(Some(file)) if !only_quick => split.searched.push(Searched::Soft(Box::new(file))),
             Ok(Some(_)) => {}
+            Ok(None) if has_no_flow(name) => {
+                for member in members_of(name, only_quick)? {
+                    let CheckedCase { file, .. } = read_and_check(&member, &[])?;
+                    split.searched.push(Searched::Reduced(Box::new(file)));
+                }
+            }
             Ok(None) => {
                 split.flows.push(name.clone());
                 split.searched.extend(optimum(name, only_quick)?);
@@ -65,6 +75,12 @@ pub fn split(names: &[String], only_quick: bool) -> Result<Split, Failure> {
     Ok(split)
 }
 
+/// Whether a case has a reduced model alone.
+fn has_no_flow(name: &str) -> bool {
+    // What is wrong in a case is told where its runs are read
+    Case::read(name, &[]).is_ok_and(|file| file.case().is_reduced_only())
+}
+
 /// The optimum of a case, if it has references.
 fn optimum(name: &str, only_quick: bool) -> Result<Option<Searched>, Failure> {
     // What is wrong in a case is told where its runs are read
@@ -80,7 +96,7 @@ impl Searched {
     pub fn name(&self) -> String {
         match self {
             Self::Soft(file) => file.name.clone(),
-            Self::Optimum(file) => file.full_name(),
+            Self::Optimum(file) | Self::Reduced(file) => file.full_name(),
         }
     }
 
@@ -92,6 +108,7 @@ impl Searched {
             Self::Soft(file) if file.case.geometry.dimensions() == 2 => soft::<2>(file, &place)?,
             Self::Soft(file) => soft::<3>(file, &place)?,
             Self::Optimum(file) => optimum_of(file, &place)?,
+            Self::Reduced(file) => reduced(file)?,
         };
         let origin = Origin::of_this_process("", n_threads);
         let day = origin.started_at.get(..10).unwrap_or_default();
@@ -157,6 +174,18 @@ where
         }
     }
     Ok(all.iter().map(|one| of_soft(&file.name, one)).collect())
+}
+
+/// The motion of a reduced model.
+fn reduced(file: &CaseFile) -> Result<Vec<Comparison>, Failure> {
+    let series = simulate(&file.model).map_err(|error| {
+        let exit = match error {
+            ReducedError::Unknown(_) => Exit::BadCase,
+            ReducedError::Tree(_) => Exit::Diverged,
+        };
+        Failure::new(exit, error.to_string()).of(&file.full_name())
+    })?;
+    Ok(compare_series(&file.full_name(), file.case(), &series, 0, 0.0))
 }
 
 /// The optimum of a steady flow.

@@ -27,7 +27,7 @@ impl Residuals for Both<'_> {
         left.iter_mut().for_each(|one| *one *= weight);
         let n_tracks: usize = self.records.iter().map(|record| record.tracks.len()).sum();
         for record in self.records {
-            let made = motion(record, |own| self.sought.filled(own, parameters))?;
+            let made = motion(record, |body, own| self.sought.filled(body, own, parameters))?;
             for (track, made) in record.tracks.iter().zip(made) {
                 let first = track.values[0];
                 let size = track

@@ -6,7 +6,7 @@ use super::error::CalibrateError;
 use super::kinematics::moved;
 use super::loads::{load, sizes};
 use super::record::Record;
-use super::sought::Sought;
+use super::sought::{Sought, with_found};
 use super::tracks::motion;
 use crate::reduced::simulate::simulate;
 use crate::run::Series;
@@ -28,11 +28,48 @@ pub struct Deviation {
     pub relative: f64,
 }
 
-/// All deviations of a record.
-pub fn deviations(
+/// A track by the model and as it was recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Overlay {
+    /// The run or record.
+    pub record: String,
+    /// Whether it was not fitted.
+    pub is_held_out: bool,
+    /// Name of the track.
+    pub track: String,
+    /// Times (s).
+    pub times: Vec<f64>,
+    /// By the model (m, rad).
+    pub model: Vec<f64>,
+    /// As it was (m, rad).
+    pub recorded: Vec<f64>,
+}
+
+/// The tracks of a record over those of the model.
+pub fn overlays(
     record: &Record,
     sought: &Sought,
     found: &[f64],
+) -> Result<Vec<Overlay>, CalibrateError> {
+    let made = motion(record, |body, own| sought.filled(body, own, found))?;
+    let overlay = |(track, model): (&super::record::Track, Vec<f64>)| Overlay {
+        record: record.name.clone(),
+        is_held_out: record.is_held_out,
+        track: track.name.clone(),
+        times: record.times.clone(),
+        model,
+        recorded: track.values.clone(),
+    };
+    Ok(record.tracks.iter().zip(made).map(overlay).collect())
+}
+
+/// All deviations of a record with its tracks over those of the model.
+pub fn deviations(
+    record: &Record,
+    sought: &Sought,
+    names: &[String],
+    found: &[f64],
+    overlays: &[Overlay],
 ) -> Result<Vec<Deviation>, CalibrateError> {
     let mut all = Vec::new();
     let mut add = |quantity: &str, model: f64, recorded: f64, relative: f64| {
@@ -47,8 +84,7 @@ pub fn deviations(
             });
         }
     };
-    let made = motion(record, |own| sought.filled(own, found))?;
-    for (track, made) in record.tracks.iter().zip(&made) {
+    for (track, Overlay { model: made, .. }) in record.tracks.iter().zip(overlays) {
         let change = |values: &[f64]| values.last().copied().unwrap_or_default() - values[0];
         let (model, recorded) = (change(made), change(&track.values));
         add(&format!("{} in all", track.name), model, recorded, model / recorded - 1.0);
@@ -59,7 +95,7 @@ pub fn deviations(
         add(&format!("{} apart, rms", track.name), rms, 0.0, rms / most);
     }
     if let Some(series) = &record.series {
-        let run = with_found(record, sought, found);
+        let run = model_with(record, names, found);
         let own = simulate(&run)?;
         for swimmer in &record.model.swimmers {
             for Pair { name, model, run: recorded } in of_swimmer(&swimmer.name, &own, series) {
@@ -71,7 +107,7 @@ pub fn deviations(
         let (mut forces, mut torques) = (0.0, 0.0);
         for one in &moved {
             let part = &record.reduced.parts[one.body];
-            let made = load(part, one, &sought.filled(&part.coefficients, found));
+            let made = load(part, one, &sought.filled(one.body, &part.coefficients, found));
             forces += (made.force - one.load.force).norm_squared();
             torques += (made.torque - one.load.torque).norm_squared();
         }
@@ -84,18 +120,9 @@ pub fn deviations(
 }
 
 /// The model of a run with the coefficients that were found.
-fn with_found(record: &Record, sought: &Sought, found: &[f64]) -> crate::case::Model {
+fn model_with(record: &Record, names: &[String], found: &[f64]) -> crate::case::Model {
     let mut model = record.model.clone();
-    if let Some(reduced) = &mut model.case.reduced {
-        let all = reduced.loads.coefficients();
-        for (number, value) in sought.numbers.iter().zip(found) {
-            reduced.coefficients.insert(all[*number].name.to_owned(), *value);
-            // What is found is that of all bodies
-            for own in reduced.body.values_mut() {
-                own.remove(all[*number].name);
-            }
-        }
-    }
+    model.case.reduced = model.case.reduced.map(|own| with_found(&own, names, found));
     model
 }
 

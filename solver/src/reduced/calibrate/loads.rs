@@ -8,7 +8,7 @@ use super::error::CalibrateError;
 use super::kinematics::{Moved, moved};
 use super::record::Record;
 use super::sought::Sought;
-use crate::reduced::build::Part;
+use crate::reduced::part::Part;
 
 /// Steps of Gauss and Newton at most, where a law is not linear.
 const MOST_STEPS: usize = 100;
@@ -53,7 +53,8 @@ impl Loaded<'_> {
     fn left<T: Number>(&self, sought: &Sought, parameters: &[T], left: &mut Vec<T>) {
         for moved in &self.moved {
             let part = &self.record.reduced.parts[moved.body];
-            let made = load(part, moved, &sought.filled(&part.coefficients, parameters));
+            let made =
+                load(part, moved, &sought.filled(moved.body, &part.coefficients, parameters));
             for axis in 0..3 {
                 left.push((made.force[axis] - moved.load.force[axis]) / self.sizes[0]);
                 left.push((made.torque[axis] - moved.load.torque[axis]) / self.sizes[1]);

@@ -11,13 +11,13 @@ mod report;
 mod sought;
 mod tracks;
 
-pub use compare::Deviation;
+pub use compare::{Deviation, Overlay};
 pub use error::CalibrateError;
 
 use alewife_reduced::tree::Fit;
 
 use self::record::{Origin, Record, records};
-use self::sought::Sought;
+use self::sought::{Sought, with_found};
 use crate::case::{CaseFile, FitBy, LoadLaw, ReducedSpec};
 
 /// What a calibration has found.
@@ -31,6 +31,8 @@ pub struct Calibrated {
     pub bounds: Vec<[f64; 2]>,
     /// Errors by quantity of all runs and records, those fitted and those held out.
     pub deviations: Vec<Deviation>,
+    /// Tracks of all runs and records over those of the model.
+    pub overlays: Vec<Overlay>,
     spec: ReducedSpec,
     by: FitBy,
     case: String,
@@ -55,7 +57,7 @@ pub fn calibrate(file: &CaseFile) -> Result<Calibrated, CalibrateError> {
     let case = file.case();
     let Some(spec) = &case.calibration else { return Err(CalibrateError::Nothing) };
     let reduced = case.reduced_model();
-    let sought = Sought::new(spec, &reduced);
+    let sought = Sought::new(spec, &reduced, &file.model);
     let records = records(file, spec, &reduced)?;
     let fitted: Vec<&Record> = records.iter().filter(|one| !one.is_held_out).collect();
     let fit = match spec.fits() {
@@ -63,19 +65,19 @@ pub fn calibrate(file: &CaseFile) -> Result<Calibrated, CalibrateError> {
         FitBy::Tracks => tracks::fitted(&fitted, &sought, MOST_STEPS)?,
         FitBy::Both => both::fitted(&fitted, &sought, MOST_STEPS)?,
     };
-    let mut found = reduced.clone();
-    for (name, value) in spec.fit.iter().zip(&fit.parameters) {
-        found.coefficients.insert(name.clone(), *value);
-    }
-    let mut deviations = Vec::new();
+    let found = with_found(&reduced, &spec.fit, &fit.parameters);
+    let (mut deviations, mut overlays) = (Vec::new(), Vec::new());
     for record in &records {
-        deviations.extend(compare::deviations(record, &sought, &fit.parameters)?);
+        let own = compare::overlays(record, &sought, &fit.parameters)?;
+        deviations.extend(compare::deviations(record, &sought, &spec.fit, &fit.parameters, &own)?);
+        overlays.extend(own);
     }
     Ok(Calibrated {
         names: spec.fit.clone(),
         bounds: spec.fit.iter().map(|name| spec.bounds_of(name)).collect(),
         fit,
         deviations,
+        overlays,
         spec: found,
         by: spec.fits(),
         case: file.full_name(),

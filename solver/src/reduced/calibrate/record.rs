@@ -46,6 +46,8 @@ pub struct Record {
     /// Times of rows (s).
     pub times: Vec<f64>,
     pub tracks: Vec<Track>,
+    /// Whether ways and angles count from the first row.
+    pub is_relative: bool,
     /// All quantities of a run.
     pub series: Option<Series>,
 }
@@ -222,6 +224,10 @@ impl Reader<'_> {
             tracks.push(self.track(&model, quantity.clone(), values)?);
         }
         self.place(&mut tracks)?;
+        let times = match self.from.start {
+            Some(start) => times.iter().map(|time| start + time - times[0]).collect(),
+            None => times,
+        };
         self.record([name, &file::hash(&bytes)], model, times, tracks, None)
     }
 
@@ -287,7 +293,18 @@ impl Reader<'_> {
             );
             return Err(self.wrong(what));
         }
-        model.case.reduced = Some(self.reduced.clone());
+        // A record may have its own of what moves the swimmer, as its `set` says, and takes the law that is calibrated
+        let own = model.case.reduced.take().filter(|_| self.from.csv.is_some());
+        model.case.reduced = Some(match own {
+            Some(own) => ReducedSpec {
+                loads: self.reduced.loads,
+                coefficients: self.reduced.coefficients.clone(),
+                body: self.reduced.body.clone(),
+                added_mass: self.reduced.added_mass,
+                ..own
+            },
+            None => self.reduced.clone(),
+        });
         let mut changed = read.clone();
         changed.model = model;
         let unknown = check_reduced(&changed);
@@ -302,10 +319,15 @@ impl Reader<'_> {
         [name, hash]: [&str; 2],
         model: Model,
         times: Vec<f64>,
-        tracks: Vec<Track>,
+        mut tracks: Vec<Track>,
         series: Option<Series>,
     ) -> Result<Record, CalibrateError> {
         let reduced = Reduced::new(&model)?;
+        let is_relative = self.from.start.is_some();
+        for track in tracks.iter_mut().filter(|_| is_relative) {
+            let first = track.values[0];
+            track.values.iter_mut().for_each(|value| *value -= first);
+        }
         Ok(Record {
             name: name.to_owned(),
             hash: hash.to_owned(),
@@ -314,6 +336,7 @@ impl Reader<'_> {
             reduced,
             times,
             tracks,
+            is_relative,
             series,
         })
     }

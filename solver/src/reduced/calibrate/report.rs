@@ -1,5 +1,6 @@
 //! What a calibration has found, as text and as the file `calibrated.toml`.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use toml::{Table, Value};
@@ -67,12 +68,39 @@ impl Calibrated {
         let values = self.spec.coefficients.iter();
         let values: Table = values.map(|(name, value)| (name.clone(), (*value).into())).collect();
         reduced.insert("coefficients".to_owned(), values.into());
+        let table = |own: &BTreeMap<String, f64>| -> Table {
+            own.iter().map(|(name, value)| (name.clone(), (*value).into())).collect()
+        };
+        let bodies = self.spec.body.iter().filter(|(_, own)| !own.is_empty());
+        let bodies: Table = bodies.map(|(name, own)| (name.clone(), table(own).into())).collect();
+        if !bodies.is_empty() {
+            reduced.insert("body".to_owned(), bodies.into());
+        }
         let mut file = Table::new();
         file.insert("reduced".to_owned(), reduced.into());
         file.insert("calibrated".to_owned(), self.facts().into());
         let head = "# Written by `alewife calibrate`. A case takes the coefficients by\n\
                     # reduced.calibrated = { file = \"calibrated.toml\" }\n\n";
         toml::to_string(&file).map_or_else(|_| String::new(), |text| format!("{head}{text}"))
+    }
+
+    /// Rows of `tracks.csv`: tracks of all runs and records over those of the model.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let mut text = "from,holdout,track,time,model,recorded\n".to_owned();
+        for one in &self.overlays {
+            let rows = one.times.iter().zip(&one.model).zip(&one.recorded);
+            for ((time, model), recorded) in rows {
+                let name = one.record.replace(['"', ',', '\n'], "_");
+                // Writing to a text cannot fail
+                let _ = writeln!(
+                    text,
+                    "{name},{},{},{time:?},{model:?},{recorded:?}",
+                    one.is_held_out, one.track
+                );
+            }
+        }
+        text
     }
 
     fn facts(&self) -> Table {

@@ -24,7 +24,7 @@ impl Residuals for Swims<'_> {
     fn residuals(&self, parameters: &[Dual64]) -> Result<Vec<Dual64>, TreeError> {
         let mut left = Vec::new();
         for record in self.records {
-            let made = motion(record, |own| self.sought.filled(own, parameters))?;
+            let made = motion(record, |body, own| self.sought.filled(body, own, parameters))?;
             for (track, made) in record.tracks.iter().zip(made) {
                 let lever = if track.axis == 3 { lever(record) } else { 1.0 };
                 let rows = made.iter().zip(&track.values);
@@ -52,7 +52,7 @@ pub fn lever(record: &Record) -> f64 {
 /// Tracks at the times of a record by the model with other coefficients, in between linear over its steps.
 pub fn motion<T: Compiled>(
     record: &Record,
-    coefficients: impl Fn(&[f64]) -> Vec<T>,
+    coefficients: impl Fn(usize, &[f64]) -> Vec<T>,
 ) -> Result<Vec<Vec<T>>, TreeError> {
     let reduced = &record.reduced;
     let tree = reduced.tree_with(coefficients)?;
@@ -75,6 +75,10 @@ pub fn motion<T: Compiled>(
         for (k, made) in made.iter_mut().enumerate() {
             made.push(before.1[k] + (now[k] - before.1[k]) * part);
         }
+    }
+    for made in made.iter_mut().filter(|_| record.is_relative) {
+        let first = made[0];
+        made.iter_mut().for_each(|value| *value -= first);
     }
     Ok(made)
 }

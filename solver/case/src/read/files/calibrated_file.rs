@@ -1,8 +1,10 @@
 //! `reduced.calibrated`: coefficients of a file of `alewife calibrate` take the place of its name.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::read::case_text::source_beside;
+use crate::text::source::Origin;
 use crate::text::tree::{self, TomlNode, TomlValue, TreeError};
 
 /// What is taken over from the table `calibrated` of the file.
@@ -45,6 +47,7 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
             "give the file of a calibration with this law, or write the other law",
         ));
     }
+    let of_bodies = file.get("reduced.body").cloned();
     let (found, facts) = (found.clone(), facts.clone());
     let Some(reduced) = root.find_mut("reduced").and_then(TomlNode::table_mut) else {
         return Ok(());
@@ -55,11 +58,13 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
         origin: origin.clone(),
         value: TomlValue::Table(Default::default()),
     };
-    let own = reduced.entry("coefficients".to_owned()).or_insert_with(empty);
-    if let Some(own) = own.table_mut() {
-        for (name, mut value) in found {
-            (value.key, value.origin) = (origin.clone(), origin.clone());
-            own.entry(name).or_insert(value);
+    fill(reduced.entry("coefficients".to_owned()).or_insert_with(empty), found, &origin);
+    if let Some(TomlValue::Table(bodies)) = of_bodies.map(|node| node.value) {
+        let all = reduced.entry("body".to_owned()).or_insert_with(empty);
+        for (body, own) in bodies {
+            if let (Some(all), TomlValue::Table(own)) = (all.table_mut(), own.value) {
+                fill(all.entry(body).or_insert_with(empty), own, &origin);
+            }
         }
     }
     if let Some(entries) = reduced.get_mut("calibrated").and_then(TomlNode::table_mut) {
@@ -72,4 +77,14 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
         entries.entry("bodies".to_owned()).or_insert(none);
     }
     Ok(())
+}
+
+/// Puts values into a table that has none of their names.
+fn fill(table: &mut TomlNode, found: BTreeMap<String, TomlNode>, origin: &Origin) {
+    if let Some(own) = table.table_mut() {
+        for (name, mut value) in found {
+            (value.key, value.origin) = (origin.clone(), origin.clone());
+            own.entry(name).or_insert(value);
+        }
+    }
 }

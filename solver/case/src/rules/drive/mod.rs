@@ -54,6 +54,7 @@ fn is_driven(model: &Model) -> bool {
             .iter()
             .flat_map(|reduced| &reduced.thruster)
             .any(|one| any(&one.drive.range()))
+        || case.reduced.iter().flat_map(|reduced| &reduced.servo).any(|one| one.rate != 0.0)
         || may_touch(model)
 }
 

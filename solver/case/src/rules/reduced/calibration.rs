@@ -3,7 +3,7 @@
 use super::is_a_body;
 use crate::rules::Findings;
 use crate::text::nearest::nearest;
-use crate::{CalibratedSpec, CalibrationSpec, FitBy, Geometry, RecordSpec, TimeSettings};
+use crate::{CalibratedSpec, CalibrationSpec, FitBy, FitName, Geometry, RecordSpec, TimeSettings};
 
 /// What a record may have of a body.
 const TRACKS: [&str; 4] = ["x", "y", "z", "angle"];
@@ -33,18 +33,24 @@ fn coefficients(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
     }
     for (index, name) in spec.fit.iter().enumerate() {
         let key = format!("calibration.fit.{index}");
-        let Some(nth) = known.iter().position(|one| one == name) else {
-            let close = nearest(name, &known)
+        let FitName { body, coefficient } = FitName::new(name);
+        if let Some(body) = body {
+            is_a_body(findings, &key, body);
+        }
+        let Some(nth) = known.iter().position(|one| *one == coefficient) else {
+            let close = nearest(coefficient, &known)
                 .map_or(String::new(), |near| format!("; did you mean {near}?"));
             let help = format!("coefficients: {}{close}", known.join(", "));
-            findings.error(&key, format!("the law \"{law}\" has no coefficient \"{name}\""), &help);
+            let message = format!("the law \"{law}\" has no coefficient \"{coefficient}\"");
+            findings.error(&key, message, &help);
             continue;
         };
         if spec.fit[..index].contains(name) {
             findings.error(&key, format!("\"{name}\" is found twice"), "leave one out");
         }
         let [lower, upper] = spec.bounds_of(name);
-        let start = reduced.coefficients_of("").get(nth).copied().unwrap_or_default();
+        let start =
+            reduced.coefficients_of(body.unwrap_or_default()).get(nth).copied().unwrap_or_default();
         let key = format!("calibration.bounds.{name}");
         if !(lower.is_finite() && upper.is_finite() && 0.0 <= lower && lower < upper) {
             let message = format!("the bounds of \"{name}\" are {lower} and {upper}");
@@ -53,7 +59,12 @@ fn coefficients(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
             findings.error(
                 &key,
                 format!("\"{name}\" starts at {start}, which is not between {lower} and {upper}"),
-                &format!("widen them, or write another reduced.coefficients.{name}"),
+                &match body {
+                    Some(body) => {
+                        format!("widen them, or write another reduced.body.{body}.{coefficient}")
+                    }
+                    None => format!("widen them, or write another reduced.coefficients.{name}"),
+                },
             );
         }
     }
@@ -109,9 +120,16 @@ fn records(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
 
 /// What a run says itself is not said again.
 fn of_run(findings: &mut Findings<'_>, key: &str, record: &RecordSpec) {
+    let has_pieces = findings.case().reduced.as_ref().is_some_and(|own| !own.ellipsoid.is_empty());
+    if has_pieces {
+        let message = "a run has the loads on whole bodies, and the case has those on ellipsoids";
+        let help = "leave out reduced.ellipsoid, or take CSV files";
+        findings.error(&format!("{key}.run"), message.to_owned(), help);
+    }
     let said = [
         ("time", record.time.is_some()),
         ("rate", record.rate.is_some()),
+        ("start", record.start.is_some()),
         ("columns", !record.columns.is_empty()),
         ("units", !record.units.is_empty()),
         ("frame", record.frame.is_some()),
@@ -131,6 +149,10 @@ fn of_file(findings: &mut Findings<'_>, key: &str, record: &RecordSpec) {
     if record.rate.is_some_and(|rate| !(rate.is_finite() && rate > 0.0)) {
         let message = "the rate is not above 0".to_owned();
         findings.error(&format!("{key}.rate"), message, "write rows a second");
+    }
+    if record.start.is_some_and(|start| !(start.is_finite() && start > 0.0)) {
+        let message = "the start is not above 0".to_owned();
+        findings.error(&format!("{key}.start"), message, "write a time of the model (s)");
     }
     if record.columns.is_empty() {
         let message = "no column says where a body is".to_owned();

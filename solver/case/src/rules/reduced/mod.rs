@@ -3,6 +3,7 @@
 mod bodies;
 pub mod calibration;
 mod connection;
+mod mechanics;
 mod parts;
 
 pub use self::parts::is_a_body;
@@ -39,6 +40,7 @@ fn check_model(findings: &mut Findings<'_>) {
     sides(findings);
     bodies::check(findings, &spec);
     parts::check(findings, &spec);
+    mechanics::check(findings, &spec);
     connection::check(findings, &spec);
 }
 

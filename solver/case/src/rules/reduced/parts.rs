@@ -75,7 +75,7 @@ pub fn is_a_body(findings: &mut Findings<'_>, key: &str, name: &str) {
 }
 
 /// Whether a vector has a finite number for each dimension, which is told where it has not.
-fn vector(findings: &mut Findings<'_>, key: &str, values: &[f64]) -> bool {
+pub fn vector(findings: &mut Findings<'_>, key: &str, values: &[f64]) -> bool {
     let is_right = findings.is_vector(values) && values.iter().all(|one| one.is_finite());
     if !is_right {
         let n = findings.case().geometry.dimensions();

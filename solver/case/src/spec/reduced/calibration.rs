@@ -12,7 +12,8 @@ use crate::spec::number::Positive;
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CalibrationSpec {
-    /// Names of the coefficients that are found, the same for all bodies; others stay as they are.
+    /// Names of the coefficients that are found, the same for all bodies, or for one body, which is `NAME.slender` then;
+    /// others stay as they are.
     #[cfg_attr(test, schemars(length(min = 1)))]
     pub fit: Vec<String>,
     /// Smallest and largest value of each by its name; 0 and 1000 if absent. The value in `[reduced]`, where a fit to
@@ -64,6 +65,11 @@ pub struct RecordSpec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub rate: Option<f64>,
+    /// Time of the model (s) at which a CSV file begins, such as when it swims steadily; ways and angles count from the first
+    /// row then, of the model and of the record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+    pub start: Option<f64>,
     /// Columns of a CSV file by the quantities they have: `NAME.x`, `.y`, `.z` or `.angle` of bodies.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub columns: BTreeMap<String, String>,
@@ -90,6 +96,26 @@ pub struct RecordFrame {
     #[serde(default, deserialize_with = "crate::text::angle::deserialize")]
     #[cfg_attr(test, schemars(with = "crate::text::angle::Angle"))]
     pub angle: f64,
+}
+
+/// What an entry of `fit` names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FitName<'a> {
+    /// The body whose own it is; that of all bodies if absent.
+    pub body: Option<&'a str>,
+    /// The coefficient.
+    pub coefficient: &'a str,
+}
+
+impl<'a> FitName<'a> {
+    /// Of `NAME.coefficient` or a coefficient.
+    #[must_use]
+    pub fn new(name: &'a str) -> Self {
+        match name.rsplit_once('.') {
+            Some((body, coefficient)) => Self { body: Some(body), coefficient },
+            None => Self { body: None, coefficient: name },
+        }
+    }
 }
 
 impl CalibrationSpec {

@@ -3,6 +3,7 @@
 pub(crate) mod calibration;
 pub(crate) mod law;
 pub(crate) mod left_out;
+pub(crate) mod mechanics;
 pub(crate) mod parts;
 
 use std::collections::BTreeMap;
@@ -10,6 +11,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use self::law::{Coefficient, LoadLaw};
+use self::mechanics::{EllipsoidSpec, KeelSpec, ServoSpec, TendonSpec};
 use self::parts::{BuoyancySpec, CalibratedSpec, ConnectionSpec, ThrusterSpec};
 
 /// `[reduced]`: the reduced model of a swimmer, for runs with `--fidelity reduced`.
@@ -34,6 +36,18 @@ pub struct ReducedSpec {
     /// Propellers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub thruster: Vec<ThrusterSpec>,
+    /// Elastic lines between bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tendon: Vec<TendonSpec>,
+    /// Motors that bring joints to a rate.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub servo: Vec<ServoSpec>,
+    /// What keeps the first body level in space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keel: Option<KeelSpec>,
+    /// Ellipsoids for the loads on bodies, in place of those of their shapes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ellipsoid: Vec<EllipsoidSpec>,
     /// The table of `loads = "connection"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub connection: Option<ConnectionSpec>,
@@ -64,6 +78,10 @@ impl ReducedSpec {
             added_mass: None,
             buoyancy: BTreeMap::new(),
             thruster: Vec::new(),
+            tendon: Vec::new(),
+            servo: Vec::new(),
+            keel: None,
+            ellipsoid: Vec::new(),
             connection: None,
             calibrated: None,
         }
