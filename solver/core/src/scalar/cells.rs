@@ -3,7 +3,7 @@
 //! With a = u - w the velocity seen from the mesh, R c = a0 c + a . grad c - k lap c and f = s - h, h what older levels give of
 //! the rate, a test function v reads int (v (a0 c + a . grad c - f) + k grad v . grad c) dx
 //! + sum over cells of int t (a . grad v) (R c - f) dx, with t = ((a0)^2 + (4 |a| / h)^2 + (12 k n)^2)^(-1/2)
-//! (@brooks1982, @tezduyar2003), h and n by the gradients of barycentric coordinates. The form is the convective one: a
+//! (Brooks and Hughes 1982), h and n by the gradients of barycentric coordinates. The form is the convective one: a
 //! constant solves it to the last bit on any mesh and with any velocity.
 
 use std::ops::Range;

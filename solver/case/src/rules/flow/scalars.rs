@@ -109,8 +109,8 @@ fn check_formulas(findings: &mut Findings<'_>, key: &str, scalar: &ScalarSpec) {
     }
     for (table, conditions) in [("boundary", &scalar.boundary), ("body", &scalar.body)] {
         for (name, condition) in conditions {
-            let (below, formula) = condition.formula();
-            check_one(findings, &format!("{key}.{table}.{name}.{below}"), formula);
+            let below = condition.key();
+            check_one(findings, &format!("{key}.{table}.{name}.{below}"), condition.formula());
         }
     }
 }

@@ -62,13 +62,23 @@ pub enum ScalarCondition {
 }
 
 impl ScalarCondition {
-    /// Its expression, and the key below that of the condition.
+    /// Its expression.
     #[must_use]
-    pub fn formula(&self) -> (&'static str, &Formula) {
+    pub fn formula(&self) -> &Formula {
         match self {
-            Self::Value(value) => ("value", value),
-            Self::Flux(flux) => ("flux", flux),
-            Self::Uptake { outside, .. } => ("uptake.outside", outside),
+            Self::Value(formula) | Self::Flux(formula) | Self::Uptake { outside: formula, .. } => {
+                formula
+            }
+        }
+    }
+
+    /// The key of its expression, below that of the condition.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Value(_) => "value",
+            Self::Flux(_) => "flux",
+            Self::Uptake { .. } => "uptake.outside",
         }
     }
 
