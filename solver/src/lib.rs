@@ -36,7 +36,9 @@ pub mod runner;
 pub mod sweep;
 pub mod validation;
 
-pub use alewife_core::{body, case, coupling, flow, gradient, run, state, step, timing, tracer};
+pub use alewife_core::{
+    body, case, coupling, flow, gradient, run, scalar, state, step, timing, tracer,
+};
 
 /// The program of a page, compiled and run.
 #[cfg(doctest)]

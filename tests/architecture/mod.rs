@@ -13,7 +13,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 37] = [
+const ROOMS: [(&str, &[&str]); 38] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -36,9 +36,10 @@ const ROOMS: [(&str, &[&str]); 37] = [
     ("gait", &["body", "case", "structure"]),
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "structure", "time", "timing"]),
+    ("scalar", &["algebra", "space", "time"]),
     ("tracer", &[]),
-    ("state", &["body", "contact", "coupling", "space", "tracer"]),
-    ("motion", &["algebra", "body", "contact", "coupling", "space", "state", "time"]),
+    ("state", &["body", "contact", "coupling", "scalar", "space", "time", "tracer"]),
+    ("motion", &["algebra", "body", "contact", "coupling", "scalar", "space", "state", "time"]),
     (
         "step",
         &[
@@ -67,6 +68,7 @@ const ROOMS: [(&str, &[&str]); 37] = [
             "gait",
             "motion",
             "rod",
+            "scalar",
             "space",
             "state",
             "step",
@@ -79,7 +81,7 @@ const ROOMS: [(&str, &[&str]); 37] = [
     ("gradient", &["algebra", "body", "case", "coupling", "motion", "run", "step"]),
     ("reduced", &["case", "run"]),
     ("optimise", &["case", "gradient"]),
-    ("observer", &["body", "case", "flow", "run", "step", "timing", "tracer"]),
+    ("observer", &["body", "case", "flow", "run", "scalar", "step", "timing", "tracer"]),
     ("validation", &["case", "run"]),
     ("sweep", &["case", "observer", "run", "validation"]),
     ("runner", &["case", "observer", "run", "step", "validation"]),

@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use alewife_core::case::soft::SoftFile;
 use alewife_core::case::{
     BodyQuantity, Case, CaseFile, FlowQuantity, JointQuantity, NamedComponent, ProbeQuantity,
-    Quantity, Reference, ReferenceKind, Severity, SideQuantity, SwimmerQuantity, TracerQuantity,
-    check, library,
+    Quantity, Reference, ReferenceKind, ScalarProbeQuantity, ScalarQuantity, ScalarSurfaceQuantity,
+    Severity, SideQuantity, SwimmerQuantity, TracerQuantity, check, library,
 };
 
 /// Beginnings of paths that exist on one machine only.
@@ -90,6 +90,12 @@ fn the_tables_of_quantities_are_those_of_the_program() {
         ),
         table("Of each probe, as `NAME.` and:", ProbeQuantity::TABLE),
         table("Of each [`tracer`](#tracers), as `NAME.` and:", TracerQuantity::TABLE),
+        table("Of each [`scalar`](#scalars), as `scalar.NAME.` and:", ScalarQuantity::TABLE),
+        table(
+            "Of each scalar on bodies and sides, as `scalar.NAME.BODY.` and:",
+            ScalarSurfaceQuantity::TABLE,
+        ),
+        table("Of each scalar at probes, as `scalar.NAME.PROBE.` and:", ScalarProbeQuantity::TABLE),
         table("Of the flow, as `flow.` and:", FlowQuantity::TABLE),
         table("Of each [side](#boundary), as `SIDE.` and:", SideQuantity::TABLE),
     ];

@@ -12,6 +12,7 @@ mod rebound;
 mod remesh;
 mod renumbered;
 mod resume;
+mod scalars;
 mod sheet;
 mod suspension;
 mod tracers;

@@ -151,6 +151,7 @@ fn in_uniform_flow(velocity: &Vector3<f64>, convection: Convection) -> Simulatio
         scheme,
         is_fresh: true,
         tracers: None,
+        scalars: None,
         stop: None,
     }
 }

@@ -18,7 +18,8 @@ pub use model::{Model, SwimmerModel};
 pub use quantity::signals::{Action as SignalAction, Input, Mistake, Signals};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
-    ProbeQuantity, Quantity, Shape, SideQuantity, Source, SwimmerQuantity, TracerQuantity, columns,
+    ProbeQuantity, Quantity, ScalarProbeQuantity, ScalarQuantity, ScalarSurface,
+    ScalarSurfaceQuantity, Shape, SideQuantity, Source, SwimmerQuantity, TracerQuantity, columns,
     differentiable_columns, known_quantities, reports_sides,
 };
 pub use read::library;
@@ -64,6 +65,7 @@ pub use spec::environment::{
 pub use spec::extent::Extent;
 pub use spec::field::{DipoleField, FieldSpec, LinearField, MagneticSpec, RotatingField};
 pub use spec::fluid::mean_flow::MeanFlowSpec;
+pub use spec::fluid::scalar::{ScalarCondition, ScalarSpec};
 pub use spec::fluid::tracer::{SeedGrid, SeedLine, TracerRegion, TracerSpec};
 pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use spec::fluid::{FlowModel, Fluid};

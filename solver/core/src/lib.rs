@@ -8,6 +8,7 @@ pub mod gait;
 pub mod gradient;
 pub mod motion;
 pub mod run;
+pub mod scalar;
 pub mod state;
 pub mod step;
 pub mod time;

@@ -101,6 +101,7 @@ impl Run {
             velocity: &self.velocity,
             pressure: &self.pressure,
             tracers: &[],
+            scalars: &[],
             bodies: &bodies,
             names: &self.names,
             values: &Self::values(step),

@@ -49,7 +49,13 @@ pub(super) fn is_load(source: Source) -> bool {
                 | SwimmerQuantity::CyclePower
                 | SwimmerQuantity::CycleCostOfTransport
         ),
-        Source::Probe(..) | Source::Tracer(..) | Source::Flow(_) | Source::Side(..) => true,
+        Source::Probe(..)
+        | Source::Tracer(..)
+        | Source::Scalar(..)
+        | Source::ScalarSurface(..)
+        | Source::ScalarProbe(..)
+        | Source::Flow(_)
+        | Source::Side(..) => true,
     }
 }
 

@@ -331,7 +331,13 @@ impl Player {
                 Source::Swimmer(swimmer, quantity) => {
                     Now::of(&self.swimmers[swimmer], &self.reduced, &now).value(quantity)
                 }
-                Source::Probe(..) | Source::Tracer(..) | Source::Flow(_) | Source::Side(..) => None,
+                Source::Probe(..)
+                | Source::Tracer(..)
+                | Source::Scalar(..)
+                | Source::ScalarSurface(..)
+                | Source::ScalarProbe(..)
+                | Source::Flow(_)
+                | Source::Side(..) => None,
             };
             match value {
                 Some(value) => *place = value.component(column.component),
@@ -367,6 +373,9 @@ fn needs(columns: &[Column]) -> Needs {
             Source::Joint(..)
             | Source::Probe(..)
             | Source::Tracer(..)
+            | Source::Scalar(..)
+            | Source::ScalarSurface(..)
+            | Source::ScalarProbe(..)
             | Source::Flow(_)
             | Source::Side(..) => {}
         }

@@ -46,7 +46,13 @@ impl Rows {
                     Some(Value::Scalar(joint(reduced, state, self.below[nth], quantity)))
                 }
                 Source::Swimmer(nth, quantity) => self.swimmers[nth].value(quantity),
-                Source::Probe(..) | Source::Tracer(..) | Source::Flow(_) | Source::Side(..) => None,
+                Source::Probe(..)
+                | Source::Tracer(..)
+                | Source::Scalar(..)
+                | Source::ScalarSurface(..)
+                | Source::ScalarProbe(..)
+                | Source::Flow(_)
+                | Source::Side(..) => None,
             };
             value.map(|value| value.component(column.component))
         };

@@ -4,6 +4,7 @@
 
 mod differentiable;
 mod row;
+mod scalars;
 mod sides;
 pub(crate) mod signals;
 mod table;
@@ -12,10 +13,12 @@ use crate::{FlowModel, Geometry, MagneticSpec, Model, SwimmerModel, TimeSettings
 
 pub use self::differentiable::differentiable_columns;
 pub use self::row::{Component, Condition, NamedComponent, Quantity, Shape};
+pub use self::scalars::ScalarSurface;
+use self::scalars::add_scalars;
 use self::sides::reported_sides;
 pub use self::table::{
-    BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, SideQuantity, SwimmerQuantity,
-    TracerQuantity,
+    BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, ScalarProbeQuantity, ScalarQuantity,
+    ScalarSurfaceQuantity, SideQuantity, SwimmerQuantity, TracerQuantity,
 };
 
 /// A column of `series.csv`: which quantity, and of what.
@@ -31,6 +34,12 @@ pub enum Source {
     Probe(usize, ProbeQuantity),
     /// Of a cloud of tracers, by its number in [`Case::tracer`](crate::Case::tracer).
     Tracer(usize, TracerQuantity),
+    /// Of a scalar, by its number in [`Case::scalar`](crate::Case::scalar).
+    Scalar(usize, ScalarQuantity),
+    /// Of a scalar on a body or a side.
+    ScalarSurface(usize, ScalarSurface, ScalarSurfaceQuantity),
+    /// Of a scalar at a probe.
+    ScalarProbe(usize, usize, ScalarProbeQuantity),
     /// Of the flow.
     Flow(FlowQuantity),
     /// Of a side, by its number in [`Case::sides`](crate::Case::sides).
@@ -93,6 +102,7 @@ pub fn columns(model: &Model) -> Vec<Column> {
         let known: Vec<Condition> = of_case.iter().copied().chain(region).collect();
         add(&mut columns, &tracer.name, TracerQuantity::TABLE, &known, source);
     }
+    add_scalars(&mut columns, model, &of_case);
     add(&mut columns, "flow", FlowQuantity::TABLE, &of_case, Source::Flow);
     for side in reported_sides(model) {
         let source = |quantity| Source::Side(side.number, quantity);

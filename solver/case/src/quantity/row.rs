@@ -97,6 +97,8 @@ pub enum Condition {
     Attached,
     /// The tracers have a region.
     Region,
+    /// The scalar has a difference, and the surface is a body's.
+    Difference,
 }
 
 impl Condition {
@@ -132,6 +134,7 @@ impl Condition {
             Self::Activation => "[`activation`](#bodies-that-bend-by-themselves)",
             Self::Attached => "[`attached`](#bodies-that-bend-by-themselves)",
             Self::Region => "`region`",
+            Self::Difference => "`difference`, bodies",
         }
     }
 }

@@ -189,6 +189,37 @@ quantities! {
 }
 
 quantities! {
+    /// Quantities of a scalar, named `scalar.NAME.total` and so on, in its unit times what is written.
+    ScalarQuantity {
+        Total: Scalar, "total", "m3 (m2)", [], "Its integral over the fluid";
+        Mean: Scalar, "mean", "1", [], "The same over the volume of the fluid";
+        Minimum: Scalar, "minimum", "1", [], "Its least value at a node";
+        Maximum: Scalar, "maximum", "1", [], "Its largest value at a node";
+        Source: Scalar, "source", "m3/s (m2/s)", [], "What is made in the fluid";
+        Defect: Scalar, "defect", "m3 (m2)", [Unsteady],
+            "`total` less what there was at the start, and less what has come since by `source` and through all bodies \
+             and sides: the error of its balance";
+    }
+}
+
+quantities! {
+    /// Quantities of a scalar on a body or a side, named `scalar.NAME.BODY.flux` and so on.
+    ScalarSurfaceQuantity {
+        Flux: Scalar, "flux", "m3/s (m2/s)", [],
+            "What enters the fluid through the surface, by diffusion from the residual and with fluid that crosses it; 0 at the start of a run";
+        Sherwood: Scalar, "sherwood", "1", [Difference],
+            "Sherwood number: `flux` times the length of `scales`, over diffusivity, `difference` and area of the surface";
+    }
+}
+
+quantities! {
+    /// Quantities of a scalar at a probe, named `scalar.NAME.PROBE.value`.
+    ScalarProbeQuantity {
+        Value: Scalar, "value", "1", [], "Its value at the point";
+    }
+}
+
+quantities! {
     /// Quantities of a side of the domain, named `SIDE.force.x` and so on.
     SideQuantity {
         Force: Vector, "force", "N (N/m)", [],

@@ -7,9 +7,9 @@ use serde_json::Value;
 use crate::Case;
 
 /// What may differ besides these is how the problem is solved, and what is reported of it.
-const TABLES: [&str; 11] = [
+const TABLES: [&str; 12] = [
     "geometry", "frame", "fluid", "flow", "field", "domain", "boundary", "body", "joint",
-    "swimmer", "tracer",
+    "swimmer", "tracer", "scalar",
 ];
 
 impl Case {

@@ -57,7 +57,7 @@ fn check_all(findings: &mut Findings<'_>, key: &str, formulas: &[Formula]) {
 }
 
 /// Whether an expression is understood, and is a number at the middle of the domain at time zero.
-fn check_one(findings: &mut Findings<'_>, key: &str, formula: &Formula) {
+pub(super) fn check_one(findings: &mut Findings<'_>, key: &str, formula: &Formula) {
     let case = findings.case();
     match formula.parsed(&case.define, case.geometry.dimensions()) {
         Err(error) => findings.error(

@@ -31,7 +31,7 @@ pub use self::reduced::check_reduced;
 
 use self::body::{bodies, joints, strokes, swimmers};
 use self::findings::Findings;
-use self::flow::{boundary, cells, fluid, mean_flow, mesh, tracers};
+use self::flow::{boundary, cells, fluid, mean_flow, mesh, scalars, tracers};
 use crate::{CaseFile, Diagnostic, Geometry, Severity};
 
 /// All diagnostics of a case: errors, which stop a run, and warnings.
@@ -64,6 +64,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     }
     time::check(&mut findings);
     tracers::check(&mut findings);
+    scalars::check(&mut findings);
     references::check(&mut findings);
     reduced::check(&mut findings);
     optimisation::check(&mut findings, file);

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Body, BoundaryCondition, CalibrationSpec, ContactSpec, DomainSpec, EnvironmentSpec, FieldSpec,
     FlowModel, FlowOptimisation, Fluid, Geometry, InitialFlow, Joint, LoadLaw, MagneticSpec,
-    MeanFlowSpec, MeshSettings, Numbers, Output, Probe, ReducedSpec, Reference, Scales, Statistics,
-    SwimmerSpec, TimeSettings, TracerSpec, Units, Variant,
+    MeanFlowSpec, MeshSettings, Numbers, Output, Probe, ReducedSpec, Reference, ScalarSpec, Scales,
+    Statistics, SwimmerSpec, TimeSettings, TracerSpec, Units, Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -87,6 +87,9 @@ pub struct Case {
     /// Particles that the flow carries along.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tracer: Vec<TracerSpec>,
+    /// Concentrations or temperatures that the flow carries and that diffuse.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub scalar: Vec<ScalarSpec>,
     /// Length and velocity that make coefficients and numbers dimensionless.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scales: Option<Scales>,

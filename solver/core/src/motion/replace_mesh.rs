@@ -1,6 +1,6 @@
 //! A new mesh in the middle of a run, with both levels of the flow transferred to it.
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 
 use super::moving_mesh::MovingMesh;
@@ -12,6 +12,7 @@ use crate::coupling::{
     BodiesAt, BodyShapes, Boundaries, BoundaryValues, DivergenceFreeProjection, Problem,
     RestPlaces, Solution, impose_boundary_values,
 };
+use crate::scalar::{MassMatrix, ScalarField};
 use crate::space::Tables;
 use crate::state::{State, TransferredState, seen_from};
 
@@ -58,6 +59,7 @@ pub fn replace_mesh<const D: usize>(
     let bodies = |poses, shapes| BodiesAt { poses, shapes };
     let rest_places = successor.rest_places(&shapes);
     let mut transfer = FieldTransfer::new(problem, &new, &successor, &rest_places);
+    transfer.has_scalars = !state.scalars.is_empty();
     let now = Level {
         name: "present level",
         solution: &state.now,
@@ -76,6 +78,7 @@ pub fn replace_mesh<const D: usize>(
     };
     let (now, previous) = (transfer.level(&now)?, transfer.level(&previous)?);
     let rates = now.transfer.quadratic(&state.rates);
+    let scalars = transfer.scalars(state, &now.transfer, &previous.transfer)?;
     let (now, previous) = (now.solution, previous.solution);
     state.replace_mesh(TransferredState {
         mesh: new,
@@ -84,6 +87,7 @@ pub fn replace_mesh<const D: usize>(
         previous,
         rates,
         image_shifts,
+        scalars,
     });
     Ok(successor)
 }
@@ -106,6 +110,8 @@ struct FieldTransfer<'a, const D: usize> {
     projection: Option<DivergenceFreeProjection<D>>,
     /// Whether the projection is where the first level asks for it.
     is_placed: bool,
+    /// Whether there are scalars, whose amounts are to be kept.
+    has_scalars: bool,
 }
 
 impl<'a, const D: usize> FieldTransfer<'a, D> {
@@ -118,7 +124,16 @@ impl<'a, const D: usize> FieldTransfer<'a, D> {
     ) -> Self {
         let projection = problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new));
         let (boundaries, tables) = (Boundaries::new(new), Tables::new(problem.metric));
-        Self { problem, moving, rest_places, boundaries, tables, projection, is_placed: true }
+        Self {
+            problem,
+            moving,
+            rest_places,
+            boundaries,
+            tables,
+            projection,
+            is_placed: true,
+            has_scalars: false,
+        }
     }
 
     /// A level on the new mesh.
@@ -147,8 +162,10 @@ impl<'a, const D: usize> FieldTransfer<'a, D> {
             &values,
             &mut solution.velocity,
         );
-        if let Some(projection) = &mut self.projection {
+        if self.projection.is_some() || self.has_scalars {
             transfer = transfer.with_points(&self.tables).ok_or_else(not_found)?;
+        }
+        if let Some(projection) = &mut self.projection {
             let residual =
                 transfer.missed(&self.tables, &level.solution.velocity, &solution.velocity);
             if !std::mem::take(&mut self.is_placed) {
@@ -163,5 +180,44 @@ impl<'a, const D: usize> FieldTransfer<'a, D> {
             )?;
         }
         Ok(TransferredLevel { solution, transfer })
+    }
+
+    /// The scalars of a state on the new mesh, each level with the integrals of the old one.
+    fn scalars(
+        &self,
+        state: &State<D>,
+        now: &Transfer<'_, D>,
+        previous: &Transfer<'_, D>,
+    ) -> Result<Vec<ScalarField>, RemeshError> {
+        if state.scalars.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut mass = MassMatrix::new(now.mesh(), self.problem.metric);
+        let fields = state.scalars.iter().map(|field| {
+            Ok(ScalarField {
+                now: self.scalar(&mut mass, now, &field.now)?,
+                previous: self.scalar(&mut mass, previous, &field.previous)?,
+                ..field.clone()
+            })
+        });
+        fields.collect()
+    }
+
+    /// Values at the nodes of the new mesh: what interpolation misses is added.
+    fn scalar(
+        &self,
+        mass: &mut MassMatrix<D>,
+        transfer: &Transfer<'_, D>,
+        values: &[f64],
+    ) -> Result<Vec<f64>, RemeshError> {
+        // As one component of a vector field
+        let as_vector =
+            |value: &f64| Point::<D>::from_fn(|axis, _| if axis == 0 { *value } else { 0.0 });
+        let old: Vec<Point<D>> = values.iter().map(as_vector).collect();
+        let new = transfer.quadratic(&old);
+        let missed = transfer.missed(&self.tables, &old, &new);
+        let missed: Vec<f64> = missed.iter().map(|one| one[0]).collect();
+        let correction = mass.solve(transfer.mesh(), &missed)?;
+        Ok(new.iter().zip(&correction).map(|(value, more)| value[0] + more).collect())
     }
 }

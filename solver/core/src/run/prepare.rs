@@ -3,7 +3,7 @@
 use alewife_mesh::Mesh;
 
 use super::RunError;
-use super::build::{Tracers, build_problem, contact_law};
+use super::build::{Scalars, Tracers, build_problem, contact_law};
 use super::case_mesh::{CaseMesh, Dimension, InitialMesh};
 use super::measure::Measure;
 use super::resume::SavedState;
@@ -42,6 +42,7 @@ where
     let mut simulation = at_rest(model, initial, timing, |_| Ok(()))?;
     simulation.tracers =
         Tracers::of(&model.case, &simulation.problem, images(&simulation.state.mesh));
+    simulation.scalars = Scalars::of(model, &simulation.problem, &simulation.state.mesh)?;
     log_recoils(&simulation.problem)?;
     if let Some(saved) = saved {
         saved.restore_into(&model.case, &mut simulation, |problem, reference| {
@@ -174,6 +175,7 @@ fn at_rest<const D: usize>(
         scheme,
         is_fresh: true,
         tracers: None,
+        scalars: None,
         stop: None,
     };
     simulation.settle_moving_walls()?;

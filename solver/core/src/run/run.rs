@@ -160,6 +160,7 @@ impl<const D: usize> Run<'_, D> {
             mesh: &state.mesh,
             velocity: &state.now.velocity,
             pressure: &state.now.pressure,
+            scalars: &state.scalars,
         };
         notify_all(&mut self.observers, error, Some(&last));
     }
@@ -187,6 +188,7 @@ impl<const D: usize> Run<'_, D> {
         let flow = simulation.solve_at_start(settings, &equations, has_convection)?;
         simulation.state.begin(InitialLevels::steady(flow.solution));
         let loads = simulation.loads(&flow.residual);
+        simulation.solve_steady_scalars()?;
         let iterations = flow.iterations;
         let summary = StepSummary { iterations, is_last: true, ..StepSummary::default() };
         self.report(&loads, summary)
@@ -196,6 +198,7 @@ impl<const D: usize> Run<'_, D> {
     pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
         let start = self.simulation.begin(settings)?;
         self.simulation.begin_tracers();
+        self.simulation.begin_scalars();
         self.report(&start.loads, StepSummary::default())
     }
 
@@ -238,6 +241,7 @@ impl<const D: usize> Run<'_, D> {
             velocity: &state.now.velocity,
             pressure: &state.now.pressure,
             tracers: &state.tracers,
+            scalars: &state.scalars,
             bodies: &measured.bodies,
             names: measure.names(),
             values: &measured.values,

@@ -3,7 +3,7 @@
 use alewife_mesh::{CellId, NodeId};
 use rayon::prelude::*;
 
-use super::build::Tracers;
+use super::build::{Scalars, Tracers};
 use super::error::RunError;
 use super::step_control::StepControl;
 use crate::case::{Convection, Scheme};
@@ -13,7 +13,8 @@ use crate::coupling::{
     SolverChoice, SurfaceLoads,
 };
 use crate::motion::{MovingMesh, replace_mesh};
-use crate::state::State;
+use crate::scalar::Level;
+use crate::state::{NewLevel, State};
 use crate::step::{
     FlowError, MeshPath, StepError, StepReport, StepResult, StopRequest, TimeStepper, Workspace,
 };
@@ -43,6 +44,8 @@ pub struct Simulation<const D: usize> {
     pub is_fresh: bool,
     /// What the flow carries, if anything.
     pub tracers: Option<Tracers<D>>,
+    /// What it carries and what diffuses, if anything.
+    pub scalars: Option<Scalars<D>>,
     /// What to ask whether the run is to end.
     pub stop: Option<StopRequest>,
 }
@@ -94,6 +97,31 @@ pub(super) fn fluid_system<const D: usize>(
     let bodies = MeshedBodies { at: BodiesAt { poses, shapes }, rest_places };
     let choice = SolverChoice::default();
     Ok(FluidSystem::with_bodies(problem, &state.mesh, bodies, unknown_frame, choice))
+}
+
+/// Scalars after a step, and the differences it was made by.
+struct Carried {
+    levels: Vec<Level>,
+    bdf: Bdf,
+}
+
+/// The scalars at a level: they follow the flow that was found, which does not know of them.
+fn carry<const D: usize>(
+    scalars: &mut Scalars<D>,
+    problem: &Problem<D>,
+    state: &State<D>,
+    level: &NewLevel<D>,
+    timing: &mut Timing,
+) -> Result<Carried, StepError> {
+    let bdf = if state.last_step > 0.0 {
+        Bdf::second_order(level.step, state.last_step)
+    } else {
+        Bdf::first_order(level.step)
+    };
+    let levels = timing.measure(Stage::Solve, || scalars.advance(problem, state, level, &bdf));
+    let levels =
+        levels.map_err(|error| FlowError::from_solve(error.into(), state.step + 1, level.time))?;
+    Ok(Carried { levels, bdf })
 }
 
 impl<const D: usize> Simulation<D> {
@@ -173,7 +201,14 @@ impl<const D: usize> Simulation<D> {
             return Err(StepError::ContactNotResolved { excess: contact_error });
         }
         let jumps = state.last_step == 0.0;
+        let carried = match &mut self.scalars {
+            Some(scalars) => Some(carry(scalars, problem, state, &level, &mut work.timing)?),
+            None => None,
+        };
         state.accept(problem, level);
+        if let Some(Carried { levels, bdf }) = carried {
+            state.accept_scalars(levels, Some(&bdf));
+        }
         if let Some(tracers) = &self.tracers {
             let moving = moving_mesh.as_ref();
             work.timing.measure(Stage::Loads, || tracers.carry(problem, state, moving, jumps));
@@ -210,6 +245,9 @@ impl<const D: usize> Simulation<D> {
             .measure(Stage::Mesh, || replace_mesh(problem, state, moving))
             .map_err(|reason| RunError::Remesh { step, time, reason: Box::new(reason) })?;
         tracing::info!(step, time, cells = state.mesh.n_cells(), reason, "remeshed");
+        if let Some(scalars) = &mut self.scalars {
+            scalars.forget_mesh();
+        }
         work.mesh = state.mesh.clone();
         work.system = work.timing.measure(Stage::Assembly, || {
             fluid_system(problem, state, Some(moving), scheme.unknown_frame)
@@ -223,6 +261,29 @@ impl<const D: usize> Simulation<D> {
         if let Some(tracers) = &self.tracers {
             self.state.carry_tracers(|state, clouds| tracers.begin(state, clouds));
         }
+    }
+
+    /// Gives scalars their values at the start.
+    pub(super) fn begin_scalars(&mut self) {
+        if let Some(scalars) = &self.scalars {
+            let fields = scalars.at_start(&self.state);
+            self.state.begin_scalars(fields);
+        }
+    }
+
+    /// Finds the scalars that a steady flow leads to.
+    ///
+    /// # Errors
+    /// When nothing determines them.
+    pub(super) fn solve_steady_scalars(&mut self) -> Result<(), RunError> {
+        self.begin_scalars();
+        let Self { problem, state, work, scalars: Some(scalars), .. } = self else {
+            return Ok(());
+        };
+        let solved = work.timing.measure(Stage::Solve, || scalars.steady(problem, state));
+        let levels = solved.map_err(|error| FlowError::from_solve(error.into(), 0, 0.0))?;
+        state.accept_scalars(levels, None);
+        Ok(())
     }
 
     /// Whether rates of gaits jump within `near` (s) of the present.

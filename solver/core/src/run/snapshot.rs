@@ -8,6 +8,7 @@ use super::{RunError, SavedState, StepErrorReport};
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::{Asked, Case, Recording};
 use crate::gait::RecoilCorrection;
+use crate::scalar::ScalarField;
 use crate::step::StopRequest;
 use crate::timing::Timing;
 use crate::tracer::Cloud;
@@ -54,6 +55,8 @@ pub struct Snapshot<'a, const D: usize> {
     pub pressure: &'a [f64],
     /// Particles that the flow carries, a cloud for each `[[tracer]]` of the case.
     pub tracers: &'a [Cloud<D>],
+    /// What it carries and what diffuses, one for each `[[scalar]]` of the case.
+    pub scalars: &'a [ScalarField],
     /// All bodies.
     pub bodies: &'a [BodyReport],
     /// Names of the quantities of a row of `series.csv`, without `time`.
@@ -84,6 +87,8 @@ pub struct LastState<'a, const D: usize> {
     pub velocity: &'a [Point<D>],
     /// Pressure at the vertices (Pa).
     pub pressure: &'a [f64],
+    /// What the flow carries and what diffuses.
+    pub scalars: &'a [ScalarField],
     /// All that evolves, for a run that resumes; none of a steady solution.
     pub saved: Option<&'a SavedState<D>>,
 }

@@ -7,6 +7,7 @@ use super::propulsion_history::PropulsionStep;
 use crate::body::{Pose, Twist};
 use crate::contact::ContactLoads;
 use crate::coupling::Solution;
+use crate::scalar::ScalarField;
 
 /// The level a step leads to.
 #[derive(Debug, Clone)]
@@ -52,4 +53,6 @@ pub struct TransferredState<const D: usize> {
     pub rates: Vec<Point<D>>,
     /// Whole periods from each body to its image in the mesh (m).
     pub image_shifts: Vec<Vector3<f64>>,
+    /// What the flow carries and what diffuses.
+    pub scalars: Vec<ScalarField>,
 }

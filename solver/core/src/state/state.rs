@@ -21,7 +21,9 @@ use crate::coupling::{
     BodyLoads, LoadedBodies, Problem, PropulsionPower, Solution, SurfaceStress, mean_motion,
     propulsion_power,
 };
+use crate::scalar::{Level, ScalarField};
 use crate::space::DofLayout;
+use crate::time::Bdf;
 use crate::tracer::Cloud;
 
 /// Everything that evolves. It can be read everywhere and changes in this file only: it moves on in [`State::accept`], to another
@@ -93,6 +95,8 @@ pub struct Evolving<const D: usize> {
     pub momentum: MomentumBalance,
     /// Particles that the flow carries, a cloud for each `[[tracer]]`.
     pub tracers: Vec<Cloud<D>>,
+    /// What the flow carries and what diffuses, one for each `[[scalar]]`.
+    pub scalars: Vec<ScalarField>,
 }
 
 impl<const D: usize> State<D> {
@@ -129,6 +133,7 @@ impl<const D: usize> State<D> {
             energy: EnergyBalance::default(),
             momentum: MomentumBalance::default(),
             tracers: Vec::new(),
+            scalars: Vec::new(),
             poses,
             mesh,
         })
@@ -190,10 +195,10 @@ impl<const D: usize> State<D> {
     /// Replaces the mesh.
     pub fn replace_mesh(&mut self, transferred: TransferredState<D>) {
         let own = &mut self.0;
-        let TransferredState { mesh, nodes_before, now, previous, rates, image_shifts } =
+        let TransferredState { mesh, nodes_before, now, previous, rates, image_shifts, scalars } =
             transferred;
         (own.now, own.previous, own.rates) = (now, previous, rates);
-        own.image_shifts = image_shifts;
+        (own.image_shifts, own.scalars) = (image_shifts, scalars);
         own.nodes.clone_from(&mesh.nodes);
         own.nodes_before = nodes_before;
         own.mesh = mesh;
@@ -278,6 +283,18 @@ impl<const D: usize> State<D> {
         let mut clouds = std::mem::take(&mut self.0.tracers);
         carry(&self.0, &mut clouds);
         self.0.tracers = clouds;
+    }
+
+    /// Gives a state at its start its scalars.
+    pub fn begin_scalars(&mut self, scalars: Vec<ScalarField>) {
+        self.0.scalars = scalars;
+    }
+
+    /// Takes over the scalars of the level that was accepted, after a step by these differences.
+    pub fn accept_scalars(&mut self, levels: Vec<Level>, bdf: Option<&Bdf>) {
+        for (own, level) in self.0.scalars.iter_mut().zip(levels) {
+            own.accept(level, bdf);
+        }
     }
 
     /// Time of the level before (s).

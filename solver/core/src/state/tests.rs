@@ -12,6 +12,7 @@ use super::{
 use crate::body::{Pose, Twist, Wrench};
 use crate::contact::{ContactLoads, MinimumGap, Partner};
 use crate::coupling::Solution;
+use crate::scalar::ScalarField;
 use crate::tracer::{Cloud, Fate, Particle};
 
 /// A triangle with all that a mesh may have.
@@ -163,7 +164,20 @@ fn state() -> State<2> {
         energy: energy(),
         momentum: momentum(),
         tracers: vec![cloud()],
+        scalars: vec![scalar()],
     })
+}
+
+fn scalar() -> ScalarField {
+    ScalarField {
+        now: vec![0.25; 6],
+        previous: vec![0.125; 6],
+        fluxes: vec![-0.5],
+        source: 0.75,
+        initial: 1.5,
+        added: -0.25,
+        added_before: -0.125,
+    }
 }
 
 #[test]

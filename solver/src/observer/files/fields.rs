@@ -18,6 +18,7 @@ use crate::observer::run_directory::{
 use crate::observer::schedule::Schedule;
 use crate::observer::system::{AtPath, remove_if_there, write_atomic};
 use crate::run::{Dimension, LastState, Observer, RunError, Snapshot, Solve};
+use crate::scalar::ScalarField;
 use crate::step::FlowError;
 use crate::timing::Timing;
 
@@ -34,6 +35,8 @@ pub struct FieldFiles {
     origin: String,
     schedule: Schedule,
     precision: alewife_mesh::Precision,
+    /// Names of the scalars.
+    scalars: Vec<String>,
     frames: Vec<Frame>,
     /// Whether there is a flow at which the run was stopped before.
     has_stopped: bool,
@@ -49,6 +52,7 @@ impl FieldFiles {
             origin: origin_comment(directory),
             schedule: Schedule::new(case.output.fields, history.map(|history| history.time)),
             precision: precision_of(case.output.precision),
+            scalars: case.scalar.iter().map(|scalar| scalar.name.clone()).collect(),
             frames: history.map(|history| history.frames.clone()).unwrap_or_default(),
             has_stopped: directory.path().join(STOPPED).is_file(),
         }
@@ -68,11 +72,15 @@ impl FieldFiles {
         mesh: &Mesh<D>,
         velocity: &[Point<D>],
         pressure: &[f64],
+        scalars: &[ScalarField],
     ) -> io::Result<Vec<u8>>
     where
         Dimension<D>: Solve<D>,
     {
-        let bytes = content(self.precision, time, mesh, velocity, pressure)?;
+        let named = self.scalars.iter().zip(scalars);
+        let scalars: Vec<Array<'_>> =
+            named.map(|(name, field)| Array::new(name, 1, &field.now)).collect();
+        let bytes = content(self.precision, time, mesh, velocity, pressure, &scalars)?;
         Ok(with_origin(bytes, &self.origin))
     }
 
@@ -140,7 +148,7 @@ pub fn field_file_size<const D: usize>(
 where
     Dimension<D>: Solve<D>,
 {
-    Ok(content(precision_of(precision), 0.0, mesh, velocity, pressure)?.len())
+    Ok(content(precision_of(precision), 0.0, mesh, velocity, pressure, &[])?.len())
 }
 
 /// The content of one field file, without the comment that names its origin.
@@ -150,6 +158,7 @@ fn content<const D: usize>(
     mesh: &Mesh<D>,
     velocity: &[Point<D>],
     pressure: &[f64],
+    scalars: &[Array<'_>],
 ) -> io::Result<Vec<u8>>
 where
     Dimension<D>: Solve<D>,
@@ -162,11 +171,12 @@ where
         .collect();
     let velocity: Vec<f64> = velocity.iter().flat_map(|u| <[f64; 3]>::from(in_space(u))).collect();
     let pressure = Dimension::<D>::pressure(mesh, pressure);
-    let arrays = [
+    let mut arrays = vec![
         Array::new("velocity", 3, &velocity),
         Array::new("pressure", 1, &pressure),
         Array::new("vorticity", parts.len(), &vorticity),
     ];
+    arrays.extend_from_slice(scalars);
     let mut bytes = Vec::new();
     write_vtu_as(precision, &mut bytes, mesh, Some(time), &arrays, &[])?;
     Ok(bytes)
@@ -183,8 +193,13 @@ where
         if self.frames.is_empty() {
             self.create_folder("fields")?;
         }
-        let bytes =
-            self.frame(snapshot.time, snapshot.mesh, snapshot.velocity, snapshot.pressure)?;
+        let bytes = self.frame(
+            snapshot.time,
+            snapshot.mesh,
+            snapshot.velocity,
+            snapshot.pressure,
+            snapshot.scalars,
+        )?;
         let name = format!("fields/{:06}.vtu", snapshot.step);
         write_atomic(&self.directory.join(&name), &bytes)?;
         self.frames.push(Frame { time: snapshot.time, file: name });
@@ -209,7 +224,7 @@ where
         if matches!(error, RunError::Output(_)) {
             return Ok(());
         }
-        let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure)?;
+        let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure, last.scalars)?;
         if matches!(error, RunError::Flow(FlowError::Stopped { .. })) {
             let name = STOPPED.to_owned();
             self.create_folder("fields")?;

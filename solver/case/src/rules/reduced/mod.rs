@@ -118,6 +118,7 @@ fn whole_case(findings: &mut Findings<'_>) {
         ("initial", case.initial.is_some(), "a flow at the start"),
         ("probe", !case.probe.is_empty(), "a probe: there is no flow to be measured"),
         ("tracer", !case.tracer.is_empty(), "tracers: there is no flow to carry them"),
+        ("scalar", !case.scalar.is_empty(), "scalars: there is no flow to carry them"),
         ("time.steady", matches!(case.time, TimeSettings::Steady(_)), "a steady flow"),
     ];
     for (key, is_there, what) in present {

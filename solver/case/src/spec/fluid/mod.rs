@@ -1,6 +1,7 @@
 //! `[fluid]`: density, viscosity, gravity and which equations hold.
 
 pub(crate) mod mean_flow;
+pub(crate) mod scalar;
 pub(crate) mod tracer;
 pub(crate) mod viscosity;
 

@@ -8,6 +8,7 @@ mod flow;
 mod integrals;
 mod momentum;
 mod probes;
+mod scalars;
 mod sides;
 mod steady;
 mod swimmers;
@@ -23,6 +24,7 @@ pub(super) use self::bodies::{flexible_states, measure_joints};
 pub(super) use self::flow::FlowMeasurement;
 use self::momentum::momentum_record;
 use self::probes::{ProbePlaces, Probes};
+use self::scalars::{boundary_of, measure_scalars};
 use self::sides::{measure_sides, side_names};
 pub use self::steady::{BodiesInFlow, steady_value};
 use self::swimmers::SwimmerMeasurement;
@@ -43,6 +45,8 @@ pub(super) struct Measure<const D: usize> {
     probes: Probes<D>,
     /// Names of all sides, if any is measured.
     sides: Vec<String>,
+    /// Names of all sides.
+    all_sides: Vec<String>,
     places: ProbePlaces,
     /// Vectors by which the first mesh repeats (m).
     images: Vec<Point<D>>,
@@ -77,6 +81,7 @@ impl<const D: usize> Measure<D> {
         let places = ProbePlaces::of(model);
         Ok(Self {
             sides: side_names(model),
+            all_sides: case.sides().into_iter().map(str::to_owned).collect(),
             names: columns.iter().map(|column| column.name.clone()).collect(),
             columns,
             probes: Probes::in_fluid(case, &places, mesh, images)?,
@@ -143,7 +148,7 @@ impl<const D: usize> Measure<D> {
         let bodies = body_reports(simulation, &loads.bodies)?;
         let mut flow = FlowMeasurement::new(simulation, crossing);
         let sides = measure_sides(&self.sides, simulation, loads);
-        let Simulation { problem, state, moving_mesh, .. } = simulation;
+        let Simulation { problem, state, moving_mesh, scalars, .. } = simulation;
         // One body has no gaps of its own
         let has_gaps = problem.groups.iter().any(|group| group.bodies.len() > 1);
         let moving = moving_mesh.as_ref().filter(|_| has_gaps);
@@ -158,6 +163,7 @@ impl<const D: usize> Measure<D> {
             })
             .collect();
         let probes = self.probes.values(state);
+        let scalars = measure_scalars(scalars.as_ref(), state, &self.probes);
         let tallies: Vec<_> = state.tracers.iter().map(Cloud::tally).collect();
         let rods: Vec<_> = (0..problem.bodies.len())
             .map(|body| RodReport::of(problem, state, &loads.bodies, body))
@@ -177,6 +183,12 @@ impl<const D: usize> Measure<D> {
             Source::Swimmer(swimmer, quantity) => swimmers[swimmer].value(quantity),
             Source::Probe(probe, quantity) => probes[probe].value(quantity),
             Source::Tracer(tracer, quantity) => tracer_value(&tallies[tracer], quantity),
+            Source::Scalar(scalar, quantity) => scalars[scalar].value(quantity),
+            Source::ScalarSurface(scalar, surface, quantity) => {
+                let boundary = boundary_of(&state.mesh, surface, &self.all_sides);
+                scalars[scalar].of_surface(boundary, quantity)
+            }
+            Source::ScalarProbe(scalar, probe, _) => scalars[scalar].at_probe(probe),
             Source::Flow(quantity) => flow.value(quantity),
             Source::Side(side, quantity) => sides[side].value(quantity),
         };

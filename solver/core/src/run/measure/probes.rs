@@ -131,6 +131,16 @@ impl<const D: usize> Probes<D> {
         self.0.is_empty()
     }
 
+    /// Values of a scalar, given at the nodes, at all probes; not numbers where there is no fluid.
+    pub(super) fn of_scalar(&self, state: &State<D>, values: &[f64]) -> Vec<f64> {
+        let at = |point: &ProbePoint<D>| {
+            let nodes = state.mesh.cell(point.cell).iter().zip(p2_values(&point.xi));
+            point.sign * nodes.fold(0.0, |sum, (&node, phi)| sum + phi * values[node.index()])
+        };
+        let of_point = |point: &Option<ProbePoint<D>>| point.as_ref().map_or(f64::NAN, at);
+        self.0.iter().map(|points| points.iter().map(of_point).sum()).collect()
+    }
+
     pub(super) fn values(&self, state: &State<D>) -> Vec<ProbeMeasurement> {
         self.0.iter().map(|points| measure(state, points)).collect()
     }

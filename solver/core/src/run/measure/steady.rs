@@ -36,6 +36,9 @@ pub fn steady_value<const D: usize>(
         Source::Joint(..)
         | Source::Probe(..)
         | Source::Tracer(..)
+        | Source::Scalar(..)
+        | Source::ScalarSurface(..)
+        | Source::ScalarProbe(..)
         | Source::Flow(_)
         | Source::Side(..) => return None,
     };

@@ -144,7 +144,11 @@ impl<const D: usize> SavedState<D> {
         let boundaries = simulation.state.mesh.boundaries.clone();
         self.check_case(case)?;
         self.check_consistent(problem, boundaries.len())?;
-        if self.state.tracers.len() != case.tracer.len() {
+        let n_nodes = self.state.nodes.len();
+        let are_whole =
+            self.state.scalars.iter().all(|scalar| scalar.is_whole(n_nodes, boundaries.len()));
+        let counts = [self.state.tracers.len(), self.state.scalars.len()];
+        if counts != [case.tracer.len(), case.scalar.len()] || !are_whole {
             return Err(ResumeError::Inconsistent.into());
         }
         let mut state = self.state.clone();
