@@ -14,7 +14,7 @@ use crate::{FlowModel, Geometry, MagneticSpec, Model, SwimmerModel, TimeSettings
 pub use self::differentiable::differentiable_columns;
 pub use self::row::{Component, Condition, NamedComponent, Quantity, Shape};
 pub use self::scalars::ScalarSurface;
-use self::scalars::add_scalars;
+use self::scalars::is_crossed;
 use self::sides::reported_sides;
 pub use self::table::{
     BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, ScalarProbeQuantity, ScalarQuantity,
@@ -109,6 +109,34 @@ pub fn columns(model: &Model) -> Vec<Column> {
         add(&mut columns, side.name, SideQuantity::TABLE, &of_case, source);
     }
     columns
+}
+
+/// Adds the columns of all scalars.
+fn add_scalars(columns: &mut Vec<Column>, model: &Model, of_case: &[Condition]) {
+    let case = &model.case;
+    for (nth, scalar) in case.scalar.iter().enumerate() {
+        let owner = format!("scalar.{}", scalar.name);
+        let source = |quantity| Source::Scalar(nth, quantity);
+        add(columns, &owner, ScalarQuantity::TABLE, of_case, source);
+        let difference = Condition::Difference.holding_if(scalar.difference.is_some());
+        let on_bodies: Vec<Condition> = of_case.iter().copied().chain(difference).collect();
+        for (body, known) in model.bodies.iter().enumerate() {
+            let source = |quantity| Source::ScalarSurface(nth, ScalarSurface::Body(body), quantity);
+            let owner = format!("{owner}.{}", known.name);
+            add(columns, &owner, ScalarSurfaceQuantity::TABLE, &on_bodies, source);
+        }
+        let sides = case.sides().into_iter().enumerate();
+        for (side, name) in sides.filter(|(_, name)| is_crossed(model, name)) {
+            let source = |quantity| Source::ScalarSurface(nth, ScalarSurface::Side(side), quantity);
+            let owner = format!("{owner}.{name}");
+            add(columns, &owner, ScalarSurfaceQuantity::TABLE, of_case, source);
+        }
+        for (probe, known) in case.probe.iter().enumerate() {
+            let source = |quantity| Source::ScalarProbe(nth, probe, quantity);
+            let owner = format!("{owner}.{}", known.name);
+            add(columns, &owner, ScalarProbeQuantity::TABLE, of_case, source);
+        }
+    }
 }
 
 /// The conditions that hold in a case, whatever the owner of a quantity.

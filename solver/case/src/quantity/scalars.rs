@@ -1,7 +1,5 @@
-//! The columns of scalars: of each, on bodies and sides, at probes.
+//! On which surfaces scalars are measured.
 
-use super::table::{ScalarProbeQuantity, ScalarQuantity, ScalarSurfaceQuantity};
-use super::{Column, Condition, Source, add};
 use crate::{BoundaryCondition, Model};
 
 /// A surface through which a scalar comes.
@@ -13,36 +11,8 @@ pub enum ScalarSurface {
     Side(usize),
 }
 
-/// Adds the columns of all scalars.
-pub fn add_scalars(columns: &mut Vec<Column>, model: &Model, of_case: &[Condition]) {
-    let case = &model.case;
-    for (nth, scalar) in case.scalar.iter().enumerate() {
-        let owner = format!("scalar.{}", scalar.name);
-        let source = |quantity| Source::Scalar(nth, quantity);
-        add(columns, &owner, ScalarQuantity::TABLE, of_case, source);
-        let difference = Condition::Difference.holding_if(scalar.difference.is_some());
-        let on_bodies: Vec<Condition> = of_case.iter().copied().chain(difference).collect();
-        for (body, known) in model.bodies.iter().enumerate() {
-            let source = |quantity| Source::ScalarSurface(nth, ScalarSurface::Body(body), quantity);
-            let owner = format!("{owner}.{}", known.name);
-            add(columns, &owner, ScalarSurfaceQuantity::TABLE, &on_bodies, source);
-        }
-        let sides = case.sides().into_iter().enumerate();
-        for (side, name) in sides.filter(|(_, name)| is_crossed(model, name)) {
-            let source = |quantity| Source::ScalarSurface(nth, ScalarSurface::Side(side), quantity);
-            let owner = format!("{owner}.{name}");
-            add(columns, &owner, ScalarSurfaceQuantity::TABLE, of_case, source);
-        }
-        for (probe, known) in case.probe.iter().enumerate() {
-            let source = |quantity| Source::ScalarProbe(nth, probe, quantity);
-            let owner = format!("{owner}.{}", known.name);
-            add(columns, &owner, ScalarProbeQuantity::TABLE, of_case, source);
-        }
-    }
-}
-
 /// Whether something may come through a side, which is neither the axis, nor periodic, nor of a body.
-fn is_crossed(model: &Model, side: &str) -> bool {
+pub fn is_crossed(model: &Model, side: &str) -> bool {
     let conditions = &model.case.boundary;
     let is_joined = conditions.iter().any(|(name, condition)| match condition {
         BoundaryCondition::Periodic(partner) => name == side || partner == side,
