@@ -58,7 +58,7 @@ fn an_array_in_a_given_mesh_has_the_drag_of_our_own_and_of_the_literature() {
     assert!((force / 24.83 - 1.0).abs() < 1e-3, "{force}");
 }
 
-/// A mean gradient drives Poiseuille flow along a channel: 1/12 of it through a height of one, exactly.
+/// A mean gradient drives Poiseuille flow along a channel of a height of one: an eighth of it over the viscosity.
 #[test]
 fn a_mean_gradient_drives_a_channel_of_a_given_mesh() {
     let text = |domain: &str| {
