@@ -8,6 +8,7 @@ mod box_tree;
 mod check;
 mod count;
 mod error;
+mod hole;
 pub mod interrupt;
 mod locate;
 mod mesh;
@@ -28,11 +29,12 @@ mod vtu;
 pub use box_tree::{Bounds, BoxTree};
 pub use check::check_mesh;
 pub use error::MeshError;
+pub use hole::{Hole, SideOfBody};
 pub use locate::{Image, Located, Locator, Neighbours};
 pub use mesh::{
     Boundary, BoundaryId, BoundaryKind, CellId, CellMap, CellNodes, Edge, Facet, FacetId, Mesh,
-    NodeArray, NodeId, PeriodicPair, Point, Simplex, Topology, jacobian_coefficients,
-    map_quadratic, shape_functions,
+    NodeArray, NodeId, PairedMesh, PeriodicPair, Point, SidePair, Simplex, Topology, Unpaired,
+    coordinates_of, jacobian_coefficients, map_quadratic, shape_functions,
 };
 pub use msh::{
     DomainMesh, Encoding, MshError, MshOptions, Place, ReadMsh, read_msh, read_msh_with,

@@ -2,6 +2,7 @@
 
 mod curved;
 mod index;
+mod pairs;
 mod simplex;
 mod straight;
 mod topology;
@@ -9,6 +10,7 @@ mod topology;
 pub(crate) use curved::determinant;
 pub use curved::{CellMap, CellNodes, jacobian_coefficients, map_quadratic, shape_functions};
 pub use index::{BoundaryId, CellId, FacetId, NodeId};
+pub use pairs::{PairedMesh, SidePair, Unpaired, coordinates_of};
 pub use simplex::{NodeArray, Simplex};
 pub use topology::{Boundary, BoundaryKind, Edge, Facet, PeriodicPair, Topology};
 

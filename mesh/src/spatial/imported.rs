@@ -36,6 +36,27 @@ impl Imported {
         Self(Arc::new(Contents { mesh, sides, bounds, locator }))
     }
 
+    /// The same region without the sides that are surfaces of bodies in it: no distance is one to these.
+    #[must_use]
+    pub fn without_sides(&self, bodies: &[&str]) -> Self {
+        let mut mesh = self.0.mesh.clone();
+        let is_kept: Vec<bool> =
+            mesh.boundaries.iter().map(|side| !bodies.contains(&side.name.as_str())).collect();
+        let mut numbers = Vec::with_capacity(is_kept.len());
+        let mut n = 0;
+        for is_kept in &is_kept {
+            numbers.push(BoundaryId::new(n));
+            n += usize::from(*is_kept);
+        }
+        let topology = mesh.topology_mut();
+        topology.facets.retain(|facet| is_kept[facet.boundary.index()]);
+        for facet in &mut topology.facets {
+            facet.boundary = numbers[facet.boundary.index()];
+        }
+        topology.boundaries.retain(|side| !bodies.contains(&side.name.as_str()));
+        Self::new(mesh)
+    }
+
     /// The mesh.
     #[must_use]
     pub fn mesh(&self) -> &Mesh<3> {

@@ -38,7 +38,7 @@ pub use sections::{
 };
 pub use shape::{Body, Part, Shape};
 pub use size_field::SizeField;
-pub use surface::{Slender, Triangulated};
+pub use surface::{Slender, SolidHole, Triangulated};
 pub use triangles::{
     NamedTriangles, Repaired, Repairs, SurfaceFault, SurfaceMeasures, SurfaceMoments,
     TriangleGroup, TriangleMesh,

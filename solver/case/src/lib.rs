@@ -35,6 +35,7 @@ pub use spec::body::gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
     JointsGait, PulsatingGait, TubeShape,
 };
+pub use spec::body::given::hole::HoleShape;
 pub use spec::body::given::midline::{MidlineGait, MidlineLaw, MidlineTable, MidlineValues};
 pub use spec::body::joint::{Ball, Hinge, Joint, JointKind, Slider};
 pub use spec::body::link::{Link, ShapedLink};

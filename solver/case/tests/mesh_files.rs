@@ -98,12 +98,23 @@ fn what_cannot_be_is_refused() {
         "boundary.wall={ parabolic = { peak = 1.0 } }",
         &["`wall` is not straight", "expressions"],
     );
-    refused("boundary.wall={ periodic = 'inlet' }", &["neither periodic"]);
+    refused(
+        "boundary.wall={ periodic = 'inlet' }",
+        &["`wall` is periodic with `inlet`, which has another condition", "wall"],
+    );
+    refused("boundary.wall={ periodic = 'exit' }", &["no such side", "inlet, outlet, wall"]);
     refused("boundary.outlet='no-slip'", &["net inflow 0.666667 m2/s"]);
     refused("boundary.exit='no-slip'", &["no side `exit`", "inlet, outlet, wall"]);
     let body =
         "body=[{ name = 'b', shape.disc.radius = 0.1, center = [1.0, 0.5], motion = 'held' }]";
-    refused(body, &["domain.mesh: bodies in the plane"]);
+    refused(body, &["body.0.shape: \"b\" cannot be put into a mesh", "shape.side"]);
+    let hole = |keys: &str| format!("body=[{{ name = 'b', motion = 'held', {keys} }}]");
+    refused(
+        &hole("shape.side = 'wall'"),
+        &["`wall` does not run around one hole", "physical name of its own"],
+    );
+    refused(&hole("shape.side = 'outlt'"), &["no side `outlt`", "`outlet`"]);
+    refused(&hole("shape.disc.radius = 0.1"), &["center"]);
     assert!(read(directory.path(), &["boundary.inlet='symmetry'"]).is_ok());
     let text = fs::read_to_string(directory.path().join("meshes/a.msh")).unwrap();
     fs::write(directory.path().join("meshes/a.msh"), text.replace("4.1 0 8", "3.0 0 8")).unwrap();

@@ -3,6 +3,7 @@
 mod curvature;
 mod ellipsoid;
 mod facets;
+mod hole;
 mod patch;
 mod revolved;
 mod ring;
@@ -14,6 +15,7 @@ mod tube;
 
 pub use ellipsoid::Ellipsoid;
 pub use facets::Facets;
+pub use hole::SolidHole;
 pub use patch::{Patch, is_bent};
 pub use revolved::Revolved;
 pub use sheet::{Sheet, SheetTriangle};

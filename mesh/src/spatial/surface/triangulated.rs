@@ -96,13 +96,18 @@ impl Triangulated {
         let vertices = mesh.vertices.iter().map(|vertex| vertex - origin).collect();
         let mesh = TriangleMesh { vertices, triangles: mesh.triangles.clone() };
         let patches = patches(&mesh);
+        Ok(Self::of_patches(mesh, patches))
+    }
+
+    /// Triangles with the quadratic ones they stand for, in the frame of the solid.
+    pub(super) fn of_patches(mesh: TriangleMesh, patches: Vec<Patch>) -> Self {
         let Enclosed { moments, area } = enclosed(&patches);
         let far = patches.iter().flat_map(Patch::control_points).map(|point| point.norm());
         let reach = far.fold(0.0, f64::max);
         let facets = Facets::new(patches);
         let bends = bends(&mesh, &facets, reach);
         let inner_radius = bends.iter().map(|bend| bend.inside).fold(0.0, f64::max);
-        Ok(Self { facets, mesh, moments, area, reach, bends, inner_radius })
+        Self { facets, mesh, moments, area, reach, bends, inner_radius }
     }
 
     /// What it encloses, at unit density.

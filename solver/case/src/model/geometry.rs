@@ -72,6 +72,7 @@ impl ShapeSpec {
             Self::Spline { points } => points.clone(),
             Self::Polygon(polygon) => polygon.corners(),
             Self::Box { size } => box_corners(*size),
+            Self::Side(hole) => hole.points().to_vec(),
             Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let spline = self.profile().and_then(|profile| profile.spline());
                 let points = |spline: Spline| -> Vec<[f64; 2]> {
@@ -91,7 +92,9 @@ impl ShapeSpec {
             Self::Disc { radius } => Shape::Disc { radius },
             Self::Ellipse { semi_axes } => Shape::Ellipse { semi_axes },
             Self::Spline { points } => Shape::Spline { points },
-            Self::Polygon(_) | Self::Box { .. } => Shape::Polygon { points: self.points() },
+            Self::Polygon(_) | Self::Box { .. } | Self::Side(_) => {
+                Shape::Polygon { points: self.points() }
+            }
             Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let spline = self.profile().and_then(|profile| profile.spline());
                 // `check` refuses lengths that make no body
@@ -119,12 +122,16 @@ impl ShapeSpec {
         // Ramanujan's first formula for the perimeter of an ellipse.
         let ellipse =
             |[a, b]: [f64; 2]| PI * (3.0 * (a + b) - ((3.0 * a + b) * (a + 3.0 * b)).sqrt());
+        if let (Self::Side(_), Some(measures)) = (self, self.measures()) {
+            return measures.length;
+        }
         match self {
             Self::Disc { radius } => 2.0 * PI * radius,
             Self::Ellipse { semi_axes } => ellipse(*semi_axes),
             Self::Spline { .. }
             | Self::Polygon(_)
             | Self::Box { .. }
+            | Self::Side(_)
             | Self::Fish(_)
             | Self::Flagellate(_)
             | Self::Tube(_) => {
@@ -160,6 +167,7 @@ impl ShapeSpec {
             Self::Curve(curve) => curve.measures(),
             Self::Revolved { profile } => Some(solid_shape::revolved(profile)),
             Self::Surface(surface) => surface.measures(),
+            Self::Side(hole) => hole.solid().map(|solid| solid_shape::triangulated(solid)),
             Self::Union(parts) => Some(solid_shape::union(parts)),
             _ => None,
         }
@@ -186,6 +194,9 @@ impl ShapeSpec {
                 PI * radius * radius * (length - 2.0 / 3.0 * radius)
             }
             Self::Cylinder { length, radius, .. } => PI * radius * radius * length,
+            Self::Side(hole) if hole.moments().is_some() => {
+                hole.moments().map_or(0.0, |moments| moments.measure)
+            }
             _ => self.measures().map_or_else(
                 || self.outline().moments().map_or(0.0, |moments| moments.measure),
                 |measures| measures.volume,
@@ -217,6 +228,9 @@ impl ShapeSpec {
     /// Radius of the circle or sphere about the shape's origin that holds the shape (m).
     #[must_use]
     pub fn reach(&self) -> f64 {
+        if let (Self::Side(_), Some(measures)) = (self, self.measures()) {
+            return measures.reach;
+        }
         match self {
             Self::Ellipsoid { semi_axes } => semi_axes.iter().copied().fold(0.0, f64::max),
             Self::Capsule { length, .. } => 0.5 * length,
@@ -231,6 +245,7 @@ impl ShapeSpec {
             Self::Spline { .. }
             | Self::Polygon(_)
             | Self::Box { .. }
+            | Self::Side(_)
             | Self::Fish(_)
             | Self::Flagellate(_)
             | Self::Tube(_) => self.points().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max),
@@ -240,6 +255,9 @@ impl ShapeSpec {
     /// Half of the least width (m): a radius, the shorter semi-axis; of a spline to a few per cent.
     #[must_use]
     pub fn half_width(&self) -> f64 {
+        if let (Self::Side(_), Some(measures)) = (self, self.measures()) {
+            return measures.half_width;
+        }
         match self {
             Self::Ellipsoid { semi_axes } => {
                 semi_axes.iter().copied().fold(f64::INFINITY, f64::min)
@@ -255,6 +273,7 @@ impl ShapeSpec {
             Self::Spline { .. }
             | Self::Polygon(_)
             | Self::Box { .. }
+            | Self::Side(_)
             | Self::Fish(_)
             | Self::Flagellate(_)
             | Self::Tube(_) => {

@@ -4,7 +4,7 @@ use alewife_mesh::{Domain, Point, SizeBox, Sizing};
 
 use crate::spec::extent::Extent;
 use crate::spec::mesh_file::MeshFile;
-use crate::{BoundaryCondition, Case, DomainSpec, Geometry};
+use crate::{Body, BoundaryCondition, Case, DomainSpec, Geometry, ShapeSpec};
 
 /// The axis that a straight side is normal to.
 #[must_use]
@@ -42,6 +42,20 @@ impl Case {
         }
     }
 
+    /// The body whose surface is this side of a given mesh; `None` of other sides.
+    #[must_use]
+    pub fn body_around(&self, side: &str) -> Option<&Body> {
+        let is_surface =
+            |body: &&Body| matches!(&body.shape, ShapeSpec::Side(hole) if hole.side == side);
+        self.body.iter().find(is_surface)
+    }
+
+    /// Whether bodies are what a given mesh leaves out.
+    #[must_use]
+    pub fn bodies_are_holes(&self) -> bool {
+        self.body.iter().any(|body| matches!(body.shape, ShapeSpec::Side(_)))
+    }
+
     /// The same case with the file of its mesh, where one is given, under another name.
     #[must_use]
     pub fn naming_mesh(&self, file: &str) -> Self {
@@ -57,7 +71,10 @@ impl Case {
     pub fn periodic_axes(&self) -> [bool; 3] {
         let is_periodic =
             |side: &str| matches!(self.boundary.get(side), Some(BoundaryCondition::Periodic(_)));
-        ["left", "bottom", "back"].map(|side| self.given_mesh().is_none() && is_periodic(side))
+        match self.given_mesh() {
+            Some(mesh) => mesh.periodic(),
+            None => ["left", "bottom", "back"].map(is_periodic),
+        }
     }
 
     /// The walls of a channel, with its images behind axis and planes of symmetry (m), along each
@@ -100,7 +117,10 @@ impl Case {
             (DomainSpec::HalfDisc { .. }, _) => vec!["wall", "axis"],
             (DomainSpec::Cylinder { .. }, Geometry::Spatial) => vec!["left", "right", "wall"],
             (DomainSpec::Cylinder { .. }, _) => vec!["left", "right", "wall", "axis"],
-            (DomainSpec::Mesh(file), _) => file.side_names(),
+            (DomainSpec::Mesh(file), _) => {
+                let names = file.side_names().into_iter();
+                names.filter(|side| self.body_around(side).is_none()).collect()
+            }
             (DomainSpec::Surface(region), _) => {
                 region.mesh().map_or_else(Vec::new, MeshFile::side_names)
             }
@@ -144,7 +164,7 @@ impl Case {
     }
 
     /// The planar domain to be meshed, with its periodic pairs; of a domain in space its section, of a
-    /// given mesh, which no bodies are in, the box around it.
+    /// given mesh the box around it.
     #[must_use]
     pub fn mesh_domain(&self) -> Domain {
         let is_periodic =
@@ -156,7 +176,8 @@ impl Case {
         match self.domain {
             DomainSpec::Mesh(_) | DomainSpec::Surface(_) => {
                 let [min, max] = self.extent().in_plane().map(Into::into);
-                Domain::Box { min, max, periodic_x: false, periodic_y: false }
+                let [periodic_x, periodic_y, _] = self.periodic_axes();
+                Domain::Box { min, max, periodic_x, periodic_y }
             }
             DomainSpec::Box { .. } | DomainSpec::Channel { .. } => {
                 let [min, max] = self.extent().in_plane();

@@ -25,7 +25,8 @@ use self::case_text::{CaseText, Located, locate, no_such_case, read_file, shippe
 use self::columns::{midline_file, probe_line, seed_file};
 use self::files::stroke_file::RecordedStroke;
 use self::files::{
-    calibrated_file, outline_file, read_mesh, region_file, stroke_file, surface_file,
+    calibrated_file, hole_shape, outline_file, periodic_sides, read_mesh, region_file, stroke_file,
+    surface_file,
 };
 use self::reference_rows::REFERENCES;
 use self::typing::typed;
@@ -39,7 +40,7 @@ use crate::text::setting;
 use crate::text::source::{Location, Source};
 use crate::text::tree;
 use crate::text::tree::{Found, TomlNode, TomlValue, TreeError};
-use crate::{BoundaryCondition, Case, Model, ShapeSpec};
+use crate::{BoundaryCondition, Case, DomainSpec, Model, ShapeSpec};
 
 /// Keys of a file that those who extend it do not inherit.
 const OWN_KEYS: [&str; 5] = ["reference", REFERENCES, "variant", "quick", SWEEP];
@@ -255,13 +256,16 @@ impl UntypedCase {
         let recorded = stroke_file::resolve(&mut self.root).map_err(wrong)?;
         region_file::resolve(&mut self.root).map_err(wrong)?;
         calibrated_file::resolve(&mut self.root).map_err(wrong)?;
-        let Completed { root: complete, left_out } = completed(&self.root).map_err(wrong)?;
+        let Completed { root: mut complete, left_out } = completed(&self.root).map_err(wrong)?;
+        hole_shape::without_center(&mut complete);
         let mut case = typed(&complete)?;
         case.left_out = left_out;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;
+        complete_periodic(&mut case);
+        periodic_sides::read_into(&mut case, &self.root).map_err(wrong)?;
+        hole_shape::read_into(&mut case, &self.root).map_err(wrong)?;
         region_file::read_into(&mut case, &self.root).map_err(wrong)?;
         surface_file::read_into(&mut case, &self.root).map_err(wrong)?;
-        complete_periodic(&mut case);
         complete_cylinders(&mut case);
         let model = Model::new(case).map_err(|error| located(&self.root, error))?;
         let [name, file] = self.names;
@@ -367,6 +371,10 @@ fn is_same_file(one: &str, other: &str) -> bool {
 
 /// A side whose partner is periodic is periodic, too, and need not say so.
 fn complete_periodic(case: &mut Case) {
+    let given: Vec<&str> = match &case.domain {
+        DomainSpec::Mesh(file) => file.side_names(),
+        _ => Vec::new(),
+    };
     let pairs: Vec<(String, String)> = case
         .boundary
         .iter()
@@ -374,7 +382,10 @@ fn complete_periodic(case: &mut Case) {
             BoundaryCondition::Periodic(partner) => Some((side.clone(), partner.clone())),
             _ => None,
         })
-        .filter(|(side, partner)| opposite(side) == Some(partner))
+        .filter(|(side, partner)| {
+            let is_opposite = given.is_empty() && opposite(side) == Some(partner);
+            is_opposite || given.contains(&partner.as_str())
+        })
         .collect();
     for (side, partner) in pairs {
         case.boundary.entry(partner).or_insert(BoundaryCondition::Periodic(side));

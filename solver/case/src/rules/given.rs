@@ -350,6 +350,10 @@ impl Course<'_> {
     fn refused(&self, bodies: &[&Body]) -> Option<MeshError> {
         let scale = self.model.case.mesh.scale;
         if self.model.case.geometry == Geometry::Spatial {
+            // What is around the holes of a given mesh is known by its cells only
+            if self.model.case.bodies_are_holes() {
+                return None;
+            }
             let domain = self.model.case.domain_in_space()?;
             let solids: Option<Vec<spatial::Body>> =
                 bodies.iter().map(|body| body.solid(scale)).collect();

@@ -27,9 +27,13 @@ pub fn check(findings: &mut Findings<'_>) {
 fn check_supported(findings: &mut Findings<'_>) {
     let (case, model) = (findings.case(), findings.model());
     let has_periods = case.periodic_axes().contains(&true);
-    let is_box = matches!(case.domain, DomainSpec::Box { .. });
+    let may_repeat = matches!(case.domain, DomainSpec::Box { .. } | DomainSpec::Mesh(_));
     let missing = [
-        ("boundary", has_periods && !is_box, "periodic sides of other domains than a box"),
+        (
+            "boundary",
+            has_periods && !may_repeat,
+            "periodic sides of other domains than a box or a given mesh",
+        ),
         ("frame", case.frame.is_some() && model.mesh_moves(), "a frame that other bodies move in"),
     ];
     for (key, is_there, what) in missing {

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use alewife_mesh::spatial::Imported;
-use alewife_mesh::{Bounds, DomainMesh, Mesh, MshError, MshOptions, SideShape};
+use alewife_mesh::{
+    BoundaryId, Bounds, DomainMesh, Mesh, MshError, MshOptions, SidePair, SideShape, Unpaired,
+};
 use serde::{Deserialize, Serialize};
 
 use super::extent::Extent;
@@ -31,6 +33,10 @@ pub struct MeshFile {
     #[serde(skip)]
     #[cfg_attr(test, schemars(skip))]
     pub(crate) contents: Option<Arc<Contents>>,
+    /// In space, what is around the bodies that are holes of it, where there are some.
+    #[serde(skip)]
+    #[cfg_attr(test, schemars(skip))]
+    pub(crate) around_bodies: Option<Imported>,
 }
 
 fn one() -> f64 {
@@ -55,6 +61,28 @@ pub(crate) struct Contents {
     n_cells: usize,
     measure: f64,
     notes: Vec<String>,
+    /// Along which coordinates sides are periodic.
+    periodic: [bool; 3],
+}
+
+/// Why sides are no periodic pairs.
+pub(crate) struct UnpairedSides {
+    /// The side of the node without a partner.
+    pub side: Option<String>,
+    /// What is wrong.
+    pub reason: Unpaired,
+}
+
+/// Where pairs of sides are among those of a mesh.
+fn numbered<const D: usize>(mesh: &Mesh<D>, pairs: &[[String; 2]]) -> Vec<SidePair> {
+    let number = |name: &String| {
+        let place = mesh.boundaries.iter().position(|boundary| boundary.name == *name);
+        place.map(BoundaryId::new)
+    };
+    let pair = |[original, copy]: &[String; 2]| {
+        Some(SidePair { original: number(original)?, copy: number(copy)? })
+    };
+    pairs.iter().filter_map(pair).collect()
 }
 
 /// A mesh of the dimension of the case.
@@ -105,6 +133,7 @@ impl Contents {
             n_cells: from.mesh.n_cells(),
             measure: from.measure,
             notes: from.notes.clone(),
+            periodic: [false; 3],
             mesh,
         }
     }
@@ -114,7 +143,60 @@ impl MeshFile {
     /// A mesh that was made inside a surface.
     pub(crate) fn of_region(contents: Arc<Contents>) -> Self {
         let contents = Some(contents);
-        Self { file: String::new(), scale: 1.0, sides: Vec::new(), checksum: None, contents }
+        Self {
+            file: String::new(),
+            scale: 1.0,
+            sides: Vec::new(),
+            checksum: None,
+            contents,
+            around_bodies: None,
+        }
+    }
+
+    /// Pairs the nodes of sides, each pair by its names.
+    pub(crate) fn pair(&mut self, sides: &[[String; 2]]) -> Result<(), UnpairedSides> {
+        let Some(mut contents) = self.contents.take() else { return Ok(()) };
+        // A mesh that was just read is held by nobody else
+        let Some(own) = Arc::get_mut(&mut contents) else {
+            self.contents = Some(contents);
+            return Ok(());
+        };
+        let failed = |names: Vec<String>| {
+            move |reason: Unpaired| {
+                let side = match &reason {
+                    Unpaired::Node { side, .. } => names.get(side.index()).cloned(),
+                    Unpaired::Oblique { .. } => None,
+                };
+                UnpairedSides { side, reason }
+            }
+        };
+        let names = own.sides.iter().map(|side| side.name.clone()).collect();
+        let mut across = |along: &[f64]| {
+            for (axis, part) in along.iter().enumerate() {
+                own.periodic[axis] |= *part != 0.0;
+            }
+        };
+        match &mut own.mesh {
+            GivenMesh::Planar(mesh) => {
+                let paired = mesh.paired(&numbered(mesh, sides)).map_err(failed(names))?;
+                paired.translations.iter().for_each(|along| across(along.as_slice()));
+                *mesh = paired.mesh;
+            }
+            GivenMesh::Spatial(imported) => {
+                let mesh = imported.mesh();
+                let paired = mesh.paired(&numbered(mesh, sides)).map_err(failed(names))?;
+                paired.translations.iter().for_each(|along| across(along.as_slice()));
+                *imported = Imported::new(paired.mesh);
+            }
+        }
+        self.contents = Some(contents);
+        Ok(())
+    }
+
+    /// Along which coordinates its sides are periodic.
+    #[must_use]
+    pub fn periodic(&self) -> [bool; 3] {
+        self.contents.as_ref().map_or([false; 3], |contents| contents.periodic)
     }
 
     fn named_sides(&self) -> &[NamedSide] {
@@ -174,6 +256,12 @@ impl MeshFile {
             GivenMesh::Planar(_) => None,
             GivenMesh::Spatial(imported) => Some(imported),
         }
+    }
+
+    /// The same with the sides that no body is inside of: all where no body is a hole of it.
+    #[must_use]
+    pub fn around_bodies(&self) -> Option<&Imported> {
+        self.around_bodies.as_ref().or_else(|| self.spatial())
     }
 
     /// The content of the file; `None` of a mesh that was made inside a surface.

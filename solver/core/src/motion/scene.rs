@@ -38,6 +38,13 @@ pub enum RemeshError {
     /// A side that moves is not meshed again.
     #[error("a side that waves is not remeshed; take a smaller amplitude")]
     MovingWall,
+    /// A mesh from a file is moved, and not made again.
+    #[error(
+        "the cells of the given mesh are worn by the motion of its bodies, and a mesh from a file is not made again; \
+         lower mesh.moving.quality, give it larger or more even cells around the bodies, let them move less, or let the \
+         program mesh: domain.box or domain.channel with the bodies by their shapes"
+    )]
+    Given,
 }
 
 /// A mesh with the scene it was generated for.

@@ -255,6 +255,7 @@ fn shape_in_words(shape: &ShapeSpec) -> String {
             format!("union of {}", names.join(" and "))
         }
         ShapeSpec::Polygon(polygon) => format!("polygon of {} corners", polygon.points.len()),
+        ShapeSpec::Side(hole) => format!("hole inside the side `{}` of the mesh", hole.side),
         ShapeSpec::Box { size: [width, height] } => {
             format!("box of {} by {}", significant(*width), significant(*height))
         }

@@ -47,12 +47,16 @@ pub fn scene<const D: usize>(
 fn rigid(body: &Body, report: &BodyReport) -> Primitives {
     let (mut solids, mut lines, mut is_placed) = (Solids::default(), vec![], false);
     let centered = Isometry3::identity();
+    let is_solid = matches!(&body.shape, ShapeSpec::Side(hole) if hole.solid().is_some());
     match &body.shape {
         // A flat cylinder
         ShapeSpec::Disc { radius } => solids.cylinder([*radius, *radius, *radius / 50.0]),
         ShapeSpec::Ellipse { semi_axes: [a, b] } => solids.cylinder([*a, *b, *b / 50.0]),
         ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. } | ShapeSpec::Ellipsoid { .. } => {
             body.shape.semi_axes().into_iter().for_each(|own| solids.ellipsoid(&centered, own));
+        }
+        ShapeSpec::Side(_) if is_solid => {
+            solids.parts(&Isometry3::identity(), &body.shape.parts().unwrap_or_default());
         }
         ShapeSpec::Capsule { .. }
         | ShapeSpec::Helix(_)
@@ -75,6 +79,7 @@ fn rigid(body: &Body, report: &BodyReport) -> Primitives {
         ShapeSpec::Spline { .. }
         | ShapeSpec::Polygon(_)
         | ShapeSpec::Box { .. }
+        | ShapeSpec::Side(_)
         | ShapeSpec::Fish(_)
         | ShapeSpec::Flagellate(_)
         | ShapeSpec::Tube(_) => {

@@ -160,6 +160,11 @@ pub(crate) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
             solid::check_parts(findings, &format!("{key}.union"), parts, check_shape);
         }
         ShapeSpec::Surface(shape) => surface::check(findings, &format!("{key}.surface"), shape),
+        ShapeSpec::Side(shape) if shape.hole.is_none() => findings.error(
+            &format!("{key}.side"),
+            "a hole of a mesh is a body of its own".to_owned(),
+            "write it in [[body]], and name the bodies in swimmer.kind.bodies",
+        ),
         ShapeSpec::Polygon(shape) => polygon::check(findings, &format!("{key}.polygon"), shape),
         ShapeSpec::Spline { points } if points.len() > 2 && signed_area(points) <= 0.0 => {
             findings.error(

@@ -21,6 +21,12 @@ pub fn check(findings: &mut Findings<'_>) {
         let key = format!("boundary.{side}");
         if sides.contains(&side.as_str()) {
             check_side(findings, &key, side, condition);
+        } else if let Some(body) = case.body_around(side) {
+            findings.error(
+                &key,
+                format!("the side `{side}` is the surface of the body \"{}\"", body.name),
+                "leave it out of [boundary]: the motion of the body tells its velocity",
+            );
         } else {
             findings.error(
                 &key,

@@ -21,7 +21,8 @@ const TETRAHEDRA: f64 = 8.485_281_374_238_57;
 /// Each size alone, as if the rest of the mesh were coarse.
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
-    if case.given_mesh().is_some() && findings.model().bodies.is_empty() {
+    let stays = findings.model().bodies.is_empty() || case.bodies_are_holes();
+    if case.given_mesh().is_some() && stays {
         // It stays as it is
         return;
     }

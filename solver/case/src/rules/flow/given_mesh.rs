@@ -4,11 +4,11 @@ use alewife_mesh::SideShape;
 
 use crate::rules::Findings;
 use crate::spec::formula::numbers;
-use crate::{BoundaryCondition, Case, DomainSpec, Geometry, MeshFile};
+use crate::{BoundaryCondition, Case, DomainSpec, Geometry, MeshFile, Motion, ShapeSpec};
 
 /// What it holds has been read; here is what does not go with the rest of the case.
 pub fn check(findings: &mut Findings<'_>) {
-    let (case, model) = (findings.case(), findings.model());
+    let case = findings.case();
     for note in case.given_mesh().map(MeshFile::notes).unwrap_or_default() {
         let help = "nothing has to be done if this is meant";
         findings.warning("domain.mesh.file", note.clone(), help);
@@ -30,11 +30,62 @@ pub fn check(findings: &mut Findings<'_>) {
             "give the physical group, or the solid, another name",
         );
     }
-    if case.geometry == Geometry::Planar && !model.bodies.is_empty() {
+    check_bodies(findings);
+}
+
+/// Bodies are what the mesh leaves out, in space also such as are cut out of it, but not both.
+fn check_bodies(findings: &mut Findings<'_>) {
+    let (case, model) = (findings.case(), findings.model());
+    let are_holes = case.bodies_are_holes();
+    if case.periodic_axes().contains(&true) {
+        check_periodic(findings);
+    }
+    if case.geometry == Geometry::Spatial && !are_holes {
+        return;
+    }
+    for (index, body) in model.bodies.iter().enumerate() {
+        if !matches!(body.shape, ShapeSpec::Side(_)) {
+            let reason = match case.geometry {
+                Geometry::Spatial => "beside bodies that are its holes",
+                _ => "in the plane, where its bodies are its holes",
+            };
+            findings.error(
+                &format!("body.{index}.shape"),
+                format!("\"{}\" cannot be put into a mesh that is given {reason}", body.name),
+                "name the side around a hole, shape.side = \"cylinder\", or let the program mesh: domain.box",
+            );
+        }
+    }
+    if case.contact.is_some() && are_holes {
         findings.error(
-            "domain.mesh",
-            "bodies in the plane cannot be in a mesh that is given so far".to_owned(),
-            "take domain.box, domain.channel or domain.disc, or make the bodies sides of the mesh",
+            "contact",
+            "holes of a given mesh have no contact: it is not made again where they come near each other"
+                .to_owned(),
+            "leave it out, or let the program mesh: domain.box",
+        );
+    }
+}
+
+/// A periodic mesh is neither moved nor made again.
+fn check_periodic(findings: &mut Findings<'_>) {
+    let (case, model) = (findings.case(), findings.model());
+    for (index, body) in model.bodies.iter().enumerate() {
+        if body.motion != Motion::Held || !matches!(body.shape, ShapeSpec::Side(_)) {
+            findings.error(
+                &format!("body.{index}"),
+                format!(
+                    "\"{}\" is not held, or no hole, in a given mesh with periodic sides",
+                    body.name
+                ),
+                "write shape.side with motion = \"held\", or take domain.box for bodies that move",
+            );
+        }
+    }
+    if case.geometry == Geometry::Spatial && !case.tracer.is_empty() {
+        findings.error(
+            "tracer",
+            "tracers do not cross periodic sides of a given mesh in space".to_owned(),
+            "take domain.box for that",
         );
     }
 }
@@ -46,13 +97,19 @@ pub fn check_side(
     side: &str,
     condition: &BoundaryCondition,
 ) {
+    let is_made = matches!(findings.case().domain, DomainSpec::Surface(_));
     let mesh = findings.case().given_mesh();
     let Some(shape) = mesh.and_then(|mesh| mesh.side_shape(side)) else { return };
     match condition {
-        BoundaryCondition::Periodic(_) | BoundaryCondition::WavingSheet { .. } => findings.error(
+        BoundaryCondition::WavingSheet { .. } => findings.error(
             key,
-            "sides of a given mesh are neither periodic nor do they wave".to_owned(),
+            "sides of a given mesh do not wave".to_owned(),
             "take domain.box for that",
+        ),
+        BoundaryCondition::Periodic(_) if is_made => findings.error(
+            key,
+            "sides of a mesh that is made inside a surface are not periodic".to_owned(),
+            "take domain.box for that, or domain.mesh with both sides meshed alike",
         ),
         BoundaryCondition::Axis => findings.error(
             key,

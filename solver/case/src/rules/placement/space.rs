@@ -10,6 +10,8 @@ use crate::Model;
 pub struct Solids {
     domain: Domain,
     bodies: Vec<Solid>,
+    /// Whether they are where a given mesh leaves them out.
+    are_holes: bool,
 }
 
 /// A body, and its surface where its lengths make one.
@@ -24,7 +26,7 @@ impl Solids {
         let solids = model.bodies.iter().filter_map(|body| body.solid(model.case.mesh.scale));
         let bodies =
             solids.map(|body| Solid { surface: BodySurface::new(&body).ok(), body }).collect();
-        Self { domain, bodies }
+        Self { domain, bodies, are_holes: model.case.bodies_are_holes() }
     }
 
     /// Whether the balls around two bodies, or images of them, may meet.
@@ -50,6 +52,9 @@ impl Arrangement for Solids {
     fn misplaced(&self) -> Vec<Misplaced> {
         let mut misplaced = Vec::new();
         let mut inside: Vec<usize> = Vec::new();
+        if self.are_holes {
+            return misplaced;
+        }
         for (index, Solid { body, .. }) in self.bodies.iter().enumerate() {
             let mut refuse = |error| misplaced.push(Misplaced { body: index, error });
             if let Err(error) = check_placement(&self.domain, std::slice::from_ref(body)) {

@@ -98,7 +98,7 @@ impl Link {
                 let half = shape.reach();
                 Ok(LinkExtent { back: -half, front: half, half_width: shape.half_width() })
             }
-            ShapeSpec::Polygon(_) | ShapeSpec::Box { .. } => {
+            ShapeSpec::Polygon(_) | ShapeSpec::Box { .. } | ShapeSpec::Side(_) => {
                 let points = shape.points();
                 let most = |part: fn(&[f64; 2]) -> f64| {
                     points.iter().map(part).fold(f64::NEG_INFINITY, f64::max)

@@ -25,6 +25,7 @@ use self::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
 };
+use self::given::hole::HoleShape;
 use self::given::midline::MidlineGait;
 use self::given::polygon::PolygonShape;
 use self::given::surface::SurfaceShape;
@@ -75,6 +76,9 @@ pub enum ShapeSpec {
         #[cfg_attr(test, schemars(with = "[Positive; 2]"))]
         size: [f64; 2],
     },
+    /// What a given mesh leaves out inside the side of this name (planar, spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
+    Side(HoleShape),
     /// Fish (planar, spatial).
     #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     Fish(FishShape),

@@ -12,6 +12,7 @@ impl ShapeSpec {
             Self::Spline { .. } => "spline",
             Self::Polygon(_) => "polygon",
             Self::Box { .. } => "box",
+            Self::Side(_) => "side",
             Self::Fish(_) => "fish",
             Self::Flagellate(_) => "flagellate",
             Self::Tube(_) => "tube",

@@ -56,7 +56,7 @@ impl Case {
                 Some(Domain::Ball { center: (*center).into(), radius: *radius })
             }
             DomainSpec::Mesh(_) | DomainSpec::Surface(_) => {
-                self.given_mesh()?.spatial().cloned().map(Domain::Imported)
+                self.given_mesh()?.around_bodies().cloned().map(Domain::Imported)
             }
             DomainSpec::Channel { .. } | DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. } => {
                 None
@@ -116,6 +116,7 @@ impl ShapeSpec {
                 let centreline = Centreline::Spline(curve.spline()?);
                 one(Shape::Tube { centreline, radius: curve.tube_radius })
             }
+            Self::Side(hole) => one(Shape::Triangulated(Arc::clone(hole.solid()?))),
             Self::Revolved { profile } => one(Shape::Revolved { profile: profile.clone() }),
             Self::Fish(_) | Self::Flagellate(_) => {
                 one(Shape::Slender(Arc::new(Slender::new(self.sections()?))))

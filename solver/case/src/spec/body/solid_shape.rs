@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use alewife_mesh::spatial::SpaceSpline;
+use alewife_mesh::spatial::{SpaceSpline, Triangulated};
 
 use super::given::surface::SurfaceShape;
 use super::{CurveShape, HelixShape, PartSpec, ShapeSpec};
@@ -47,15 +47,19 @@ impl CurveShape {
 
 impl SurfaceShape {
     pub(crate) fn measures(&self) -> Option<Measures> {
-        let solid = self.solid()?;
-        let extent = solid.triangles().extent();
-        Some(Measures {
-            length: 0.5 * PI * extent,
-            area: solid.area(),
-            volume: solid.moments().volume,
-            reach: solid.reach(),
-            half_width: solid.inner_radius(),
-        })
+        self.solid().map(|solid| triangulated(solid))
+    }
+}
+
+/// Measures of a solid given by the triangles of its surface.
+pub(crate) fn triangulated(solid: &Triangulated) -> Measures {
+    let extent = solid.triangles().extent();
+    Measures {
+        length: 0.5 * PI * extent,
+        area: solid.area(),
+        volume: solid.moments().volume,
+        reach: solid.reach(),
+        half_width: solid.inner_radius(),
     }
 }
 

@@ -3,6 +3,7 @@
 mod balance;
 mod bodies;
 mod formulas;
+mod holes;
 mod joints;
 mod magnets;
 mod motion_settings;
@@ -20,6 +21,7 @@ use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 use self::balance::check_net_inflow;
 use self::bodies::rigid_body;
 use self::formulas::vector;
+pub(super) use self::holes::sides_of_bodies;
 use self::joints::add_joint;
 use self::magnets::add_magnets;
 pub use self::motion_settings::motion_settings;

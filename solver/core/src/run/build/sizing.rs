@@ -14,5 +14,7 @@ pub fn sizing<const D: usize>(case: &Case) -> Sizing<D> {
 /// When a case has its mesh replaced.
 pub(in crate::run) fn limits(case: &Case) -> Limits {
     let mesh = &case.mesh;
-    Limits { quality: mesh.moving.quality, layers: mesh.fewest_layers() }
+    // A given mesh is not made again, and what is around its holes is known by its cells only
+    let layers = if case.bodies_are_holes() { 0.0 } else { mesh.fewest_layers() };
+    Limits { quality: mesh.moving.quality, layers }
 }

@@ -35,7 +35,11 @@ impl Solid {
     }
 
     fn in_plane(body: &Body) -> Result<Self, RunError> {
-        let moments = body.shape.outline().moments().ok_or_else(|| {
+        let moments = match &body.shape {
+            ShapeSpec::Side(hole) => hole.moments(),
+            shape => shape.outline().moments(),
+        };
+        let moments = moments.ok_or_else(|| {
             RunError::Unsupported(format!("body `{}`: its points make no outline", body.name))
         })?;
         let volume = Inertia { mass: moments.measure, tensor: second_moments(&moments) };
@@ -49,8 +53,13 @@ impl Solid {
     /// Of shapes without a closed form by what their surface in the mesh encloses.
     fn in_space(body: &Body, enclosed: impl FnOnce() -> Enclosed) -> Result<Self, RunError> {
         let place = body.pose_in_space();
-        if let ShapeSpec::Surface(surface) = &body.shape {
-            let moments = surface.solid().ok_or_else(|| no_solid(body))?.moments();
+        let triangulated = match &body.shape {
+            ShapeSpec::Surface(surface) => Some(surface.solid()),
+            ShapeSpec::Side(hole) => Some(hole.solid()),
+            _ => None,
+        };
+        if let Some(solid) = triangulated {
+            let moments = solid.ok_or_else(|| no_solid(body))?.moments();
             let centroid = place.transform_point(&moments.centroid.into()).coords;
             let volume = Inertia { mass: moments.volume, tensor: moments.inertia };
             return Ok(Self { volume, pose: Pose::spatial(centroid, place.rotation) });

@@ -13,7 +13,9 @@ use crate::gait::WavingSheet;
 use crate::motion::Limits;
 use crate::motion::MotionSettings;
 use crate::run::RunError;
-use crate::run::build::{limits, motion_settings, rod_shape, shape_motion, sizing};
+use crate::run::build::{
+    limits, motion_settings, rod_shape, shape_motion, sides_of_bodies, sizing,
+};
 use crate::run::start::check_cells;
 
 /// What stays the same over all meshes of a run.
@@ -35,6 +37,8 @@ pub(in crate::run) struct PlanarCase {
     pub start_shapes: Vec<PlacedShape>,
     /// Their poses.
     pub start_poses: Vec<Pose>,
+    /// Whether the mesh is one of a file, which is not made again.
+    pub is_given: bool,
     /// Sides that wave, by name.
     sheets: Vec<(String, WavingSheet)>,
 }
@@ -49,6 +53,7 @@ impl PlanarCase {
             domain: case.mesh_domain(),
             sizing: sizing(case),
             limits: limits(case),
+            is_given: case.given_mesh().is_some(),
             motion: motion_settings(model, problem),
             deforms: problem.bodies.iter().map(|body| body.shape.is_some()).collect(),
             pivots: problem.pairs_on_pivots(),
@@ -86,7 +91,7 @@ impl MeshedCase {
     pub fn generate(model: &Model) -> Result<Self, RunError> {
         let case = &model.case;
         if let Some(mesh) = case.given_mesh().and_then(MeshFile::planar) {
-            return Self::of(model, mesh.clone());
+            return Self::of(model, mesh.with_bodies(&sides_of_bodies(model)));
         }
         let (domain, mut shapes, sizing) =
             (case.mesh_domain(), placed_bodies(model)?, sizing(case));

@@ -199,6 +199,9 @@ impl Scene<2> for PlanarScene {
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
     ) -> Result<Meshed<2>, RemeshError> {
+        if self.case.is_given {
+            return Err(RemeshError::Given);
+        }
         let case = Arc::clone(&self.case);
         let mut shapes = shapes_at(&case, poses, shapes);
         let shifts = move_into(&case.domain, &mut shapes);

@@ -25,6 +25,8 @@ pub(super) struct SpatialCase {
     pub limits: Limits,
     /// How the mesh moves.
     pub motion: MotionSettings,
+    /// Whether bodies are holes of a given mesh, which is not made again.
+    pub is_given: bool,
     /// Bodies that share a pivot.
     pub pivots: Vec<[usize; 2]>,
     /// The bodies at time zero.
@@ -47,6 +49,7 @@ impl SpatialCase {
             }
         };
         Ok(Self {
+            is_given: model.case.bodies_are_holes(),
             domain: model.case.domain_in_space().ok_or_else(no_domain)?,
             sizing: sizing(&model.case),
             limits: limits(&model.case),

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use self::case::{SpatialCase, move_into, no_domain, solids};
 use self::scene::SpatialScene;
 use super::RunError;
-use super::build::sizing;
+use super::build::{sides_of_bodies, sizing};
 use super::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh, NearestOnBody};
 use super::resume::{Reference, ResumeError};
 use super::start::check_cells;
@@ -25,6 +25,12 @@ use crate::motion::RemeshError;
 impl CaseMesh<3> for Dimension<3> {
     fn generate(model: &Model) -> Result<InitialMesh<3>, RunError> {
         let case = &model.case;
+        let holes = sides_of_bodies(model);
+        if let (false, Some(given)) = (holes.is_empty(), case.given_mesh()) {
+            let given = given.spatial().ok_or_else(no_domain)?;
+            let shifts = vec![Vector3::zeros(); holes.len()];
+            return Ok(initial(given.mesh().with_bodies(&holes), shifts));
+        }
         let (mut solids, sizing) = (solids(model)?, sizing(case));
         let domain = case.domain_in_space().ok_or_else(no_domain)?;
         let shifts = move_into(&domain, &mut solids);

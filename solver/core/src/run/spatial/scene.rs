@@ -116,6 +116,9 @@ impl Scene<3> for SpatialScene {
         shifted: PosesByShift<'_>,
     ) -> Result<Meshed<3>, RemeshError> {
         let case = &self.case;
+        if case.is_given {
+            return Err(RemeshError::Given);
+        }
         let mut solids = case.solids_at(poses, shapes);
         let shifts = move_into(&case.domain, &mut solids);
         let mesh = generate(&case.domain, &solids, &case.sizing)?;
