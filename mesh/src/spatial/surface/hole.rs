@@ -81,7 +81,8 @@ mod tests {
         assert!((center - at).norm() < 1e-3 && moments.centroid.norm() < 1e-12, "{center}");
         let inertia = moments.inertia.trace() / 3.0 / (0.4 * exact * 0.64);
         assert!((inertia - 1.0).abs() < 4e-3, "{inertia}");
-        assert!((solid.reach() - 0.8).abs() < 2e-2, "{}", solid.reach());
+        // That of the control points of its facets, which lie outside
+        assert!((0.8..0.85).contains(&solid.reach()), "{}", solid.reach());
         // A side of the box is open
         assert!(matches!(
             SolidHole::new(&mesh, BoundaryId::new(0)),
