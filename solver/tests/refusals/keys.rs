@@ -102,6 +102,8 @@ fn what_a_missing_key_may_hold_is_told() {
     refused(
         "shape = { disc = { radius = 0.05 } }",
         "",
-        &["`shape = ...` there, one of: disc, ellipse, spline, polygon, box, fish, flagellate\n"],
+        &[
+            "`shape = ...` there, one of: disc, ellipse, spline, polygon, box, side, fish, flagellate\n",
+        ],
     );
 }

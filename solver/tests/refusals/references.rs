@@ -11,7 +11,7 @@ fn a_reynolds_number_that_disagrees_is_shown_with_the_derived_one() {
             "declared as 100, but the case gives 20 = density * scales.velocity * scales.length / \
              viscosity",
             "wrong.toml:36:12",
-            "correct the declared number",
+            "correct it, write fluid.viscosity = 2.00000e-4, or sweep numbers.reynolds",
         ],
     );
 }
