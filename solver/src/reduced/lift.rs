@@ -1,16 +1,12 @@
 //! The tree of a case over any kind of number, with other coefficients: what derivatives by these are made with.
 
 use alewife_reduced::tree::{
-    Drive, Joint, Link, Number, Placement, Pose, Site, State, Stops, Symmetric, Tendon, Tree,
-    TreeError, Weight, real,
+    Drive, Joint, Link, Number, Placement, Site, State, Stops, Symmetric, Tendon, Tree, TreeError,
+    Weight, real,
 };
 
 use super::build::Reduced;
-
-/// A pose as one of numbers.
-pub(super) fn pose<T: Number>(pose: &Pose<f64>) -> Pose<T> {
-    Pose { rotation: pose.rotation.map(real), position: pose.position.map(real) }
-}
+use super::part::pose;
 
 fn symmetric<T: Number>(one: &Symmetric<f64>) -> Symmetric<T> {
     Symmetric {

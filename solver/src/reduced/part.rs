@@ -1,10 +1,9 @@
 //! `Part`: where a body of a case is in its tree, and what the fluid does to it.
 
-use alewife_reduced::tree::{Number, PlacedLoad, Pose};
+use alewife_reduced::tree::{Number, PlacedLoad, Pose, real};
 use nalgebra::{Matrix3, Vector3};
 
 use super::law::Law;
-use super::lift;
 
 /// Where a body is in the tree, and what the fluid does to it.
 #[derive(Debug, Clone)]
@@ -38,7 +37,7 @@ impl Part {
     pub fn loads<T: Number>(&self, coefficients: &[T]) -> Vec<PlacedLoad<T>> {
         let placed = |law: &Law, place: Vector3<f64>| {
             let load = law.load(coefficients)?;
-            let met = lift::pose(&self.inside.then(&Pose::at(place)));
+            let met = pose(&self.inside.then(&Pose::at(place)));
             Some(PlacedLoad { pose: Some(met), load })
         };
         if self.pieces.is_empty() {
@@ -46,4 +45,9 @@ impl Part {
         }
         self.pieces.iter().filter_map(|piece| placed(&piece.law, piece.place)).collect()
     }
+}
+
+/// A pose as one of numbers.
+pub(super) fn pose<T: Number>(pose: &Pose<f64>) -> Pose<T> {
+    Pose { rotation: pose.rotation.map(real), position: pose.position.map(real) }
 }

@@ -31,7 +31,6 @@ use self::files::{
 use self::reference_rows::REFERENCES;
 use self::typing::typed;
 use self::variants::{apply_variant, check_names, variant_names};
-use crate::model::region::opposite;
 use crate::spec::reduced::left_out::{Completed, completed};
 use crate::sweep::spec;
 use crate::text::diagnostic::{CaseError, Diagnostic, Severity};
@@ -40,7 +39,7 @@ use crate::text::setting;
 use crate::text::source::{Location, Source};
 use crate::text::tree;
 use crate::text::tree::{Found, TomlNode, TomlValue, TreeError};
-use crate::{BoundaryCondition, Case, DomainSpec, Model, ShapeSpec};
+use crate::{Case, Model, ShapeSpec};
 
 /// Keys of a file that those who extend it do not inherit.
 const OWN_KEYS: [&str; 5] = ["reference", REFERENCES, "variant", "quick", SWEEP];
@@ -261,7 +260,7 @@ impl UntypedCase {
         let mut case = typed(&complete)?;
         case.left_out = left_out;
         read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;
-        complete_periodic(&mut case);
+        periodic_sides::complete(&mut case);
         periodic_sides::read_into(&mut case, &self.root).map_err(wrong)?;
         hole_shape::read_into(&mut case, &self.root).map_err(wrong)?;
         region_file::read_into(&mut case, &self.root).map_err(wrong)?;
@@ -367,29 +366,6 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
 fn is_same_file(one: &str, other: &str) -> bool {
     let [one, other] = [one, other].map(std::fs::canonicalize);
     one.is_ok_and(|one| other.is_ok_and(|other| one == other))
-}
-
-/// A side whose partner is periodic is periodic, too, and need not say so.
-fn complete_periodic(case: &mut Case) {
-    let given: Vec<&str> = match &case.domain {
-        DomainSpec::Mesh(file) => file.side_names(),
-        _ => Vec::new(),
-    };
-    let pairs: Vec<(String, String)> = case
-        .boundary
-        .iter()
-        .filter_map(|(side, condition)| match condition {
-            BoundaryCondition::Periodic(partner) => Some((side.clone(), partner.clone())),
-            _ => None,
-        })
-        .filter(|(side, partner)| {
-            let is_opposite = given.is_empty() && opposite(side) == Some(partner);
-            is_opposite || given.contains(&partner.as_str())
-        })
-        .collect();
-    for (side, partner) in pairs {
-        case.boundary.entry(partner).or_insert(BoundaryCondition::Periodic(side));
-    }
 }
 
 /// Cylinders that go through a box are as long as it is.

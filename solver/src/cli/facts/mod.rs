@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use self::joints::{angle_in_words, joint_line, senses_of_angles};
 use crate::case::{
     BoundaryCondition, Case, CaseFile, DomainSpec, FlowModel, GaitSpec, Geometry, MeanFlowSpec,
-    Model, Motion, Orientation, ShapeSpec, SwimmerModel, TimeSettings, ViscositySpec,
+    Model, Motion, Orientation, ScalarSpec, ShapeSpec, SwimmerModel, TimeSettings, ViscositySpec,
     geometry_name, printable, significant,
 };
 
@@ -41,6 +41,9 @@ pub fn facts(file: &CaseFile) -> String {
     }
     if let Some(flow) = &case.flow {
         line("flow", mean_flow(flow));
+    }
+    for scalar in &case.scalar {
+        line("scalar", scalar_line(scalar));
     }
     for body in &model.bodies {
         line("body", body_line(case, body));
@@ -89,6 +92,19 @@ fn mean_flow(flow: &MeanFlowSpec) -> String {
     let parts =
         given.iter().filter_map(|(name, values)| Some(format!("{name} {:?}", (*values).as_ref()?)));
     parts.collect::<Vec<_>>().join(", ")
+}
+
+fn scalar_line(scalar: &ScalarSpec) -> String {
+    let carried = match (scalar.diffusivity, scalar.peclet) {
+        (Some(diffusivity), _) => format!("of diffusivity {}", significant(diffusivity)),
+        (None, Some(peclet)) => format!("at a Peclet number of {}", significant(peclet)),
+        (None, None) => String::new(),
+    };
+    let named = scalar.body.keys().chain(scalar.boundary.keys());
+    match named.cloned().collect::<Vec<_>>().join(", ") {
+        none if none.is_empty() => format!("{} {carried}, nothing diffuses out", scalar.name),
+        places => format!("{} {carried}, with conditions on {places}", scalar.name),
+    }
 }
 
 fn fluid(case: &Case) -> String {

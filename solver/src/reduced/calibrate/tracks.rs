@@ -8,6 +8,7 @@ use super::record::Record;
 use super::sought::Sought;
 use crate::reduced::lift;
 use crate::reduced::mover::Mover;
+use crate::reduced::part::pose;
 
 /// Fits tracks by the method of Gauss and Newton.
 pub fn fitted(records: &[&Record], sought: &Sought, most: usize) -> Result<Fit, CalibrateError> {
@@ -93,7 +94,7 @@ fn places<T: Number>(
     let poses = tree.poses(state);
     let value = |(k, track): (usize, &super::record::Track)| {
         let part = &record.reduced.parts[track.body];
-        let inside: Pose<T> = lift::pose(&part.inside);
+        let inside: Pose<T> = pose(&part.inside);
         let pose = poses[part.link].then(&inside);
         if track.axis < 3 {
             return pose.position[track.axis];

@@ -2,10 +2,34 @@
 
 use alewife_mesh::{Unpaired, coordinates_of};
 
+use crate::model::region::opposite;
 use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TreeError};
 use crate::text::type_error::suggestion;
 use crate::{BoundaryCondition, Case, DomainSpec};
+
+/// A side whose partner is periodic is periodic, too, and need not say so.
+pub fn complete(case: &mut Case) {
+    let given: Vec<&str> = match &case.domain {
+        DomainSpec::Mesh(file) => file.side_names(),
+        _ => Vec::new(),
+    };
+    let pairs: Vec<(String, String)> = case
+        .boundary
+        .iter()
+        .filter_map(|(side, condition)| match condition {
+            BoundaryCondition::Periodic(partner) => Some((side.clone(), partner.clone())),
+            _ => None,
+        })
+        .filter(|(side, partner)| {
+            let is_opposite = given.is_empty() && opposite(side) == Some(partner);
+            is_opposite || given.contains(&partner.as_str())
+        })
+        .collect();
+    for (side, partner) in pairs {
+        case.boundary.entry(partner).or_insert(BoundaryCondition::Periodic(side));
+    }
+}
 
 /// Pairs the nodes of periodic sides of a given mesh.
 ///

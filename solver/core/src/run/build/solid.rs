@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 
 use alewife_mesh::spatial::SectionMoments;
-use alewife_mesh::{BoundaryId, Mesh, Point};
+use alewife_mesh::{BoundaryId, Mesh, Point, SideOfBody};
 use nalgebra::{Matrix3, Rotation2, Vector3};
 
 use crate::body::{Inertia, Pose};
-use crate::case::{Body, Geometry, ShapeSpec};
+use crate::case::{Body, Geometry, Model, ShapeSpec};
 use crate::coupling::second_moments;
 use crate::run::RunError;
 use crate::space::{FacetRule, Metric};
@@ -172,6 +172,15 @@ fn capsule(length: f64, radius: f64) -> Inertia {
     let across = cylinder * (square / 4.0 + straight * straight / 12.0) + of_ends;
     let diagonal = Vector3::new(along, across, across);
     Inertia { mass: cylinder + ends, tensor: Matrix3::from_diagonal(&diagonal) }
+}
+
+/// The sides of a given mesh that are surfaces of the bodies of a model, one for each where bodies are what a mesh leaves out; else none.
+pub(in crate::run) fn sides_of_bodies(model: &Model) -> Vec<SideOfBody<'_>> {
+    let sides = model.bodies.iter().filter_map(|body| match &body.shape {
+        ShapeSpec::Side(hole) => Some(SideOfBody { side: &hole.side, body: &body.name }),
+        _ => None,
+    });
+    sides.collect()
 }
 
 #[cfg(test)]
