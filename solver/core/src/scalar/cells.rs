@@ -1,8 +1,8 @@
 //! Matrices and loads of cells: rate, advection and diffusion by Galerkin's method, stabilised by SUPG.
 //!
 //! With a = u - w the velocity seen from the mesh, R c = a0 c + a . grad c - k lap c and f = s - h, h what older levels give of
-//! the rate, a test function v reads int (v (a0 c + a . grad c - f) + k grad v . grad c) dx
-//! + sum over cells of int t (a . grad v) (R c - f) dx, with t = ((a0)^2 + (4 |a| / h)^2 + (12 k n)^2)^(-1/2)
+//! the rate, a test function v reads int (v (a0 c + a . grad c - f) + k grad v . grad c) dx and, added
+//! to it, the sum over cells of int t (a . grad v) (R c - f) dx, with t = ((a0)^2 + (4 |a| / h)^2 + (12 k n)^2)^(-1/2)
 //! (Brooks and Hughes 1982), h and n by the gradients of barycentric coordinates. The form is the convective one: a
 //! constant solves it to the last bit on any mesh and with any velocity.
 

@@ -74,7 +74,7 @@ pub fn read_into(case: &mut Case, root: &TomlNode) -> Result<(), TreeError> {
             return Err(refused(key, message, &format!("leave `{key}` out")));
         }
         body.center = center;
-        shape.hole = Some(hole);
+        shape.hole = Some(Box::new(hole));
     }
     let sides: Vec<&str> = taken.keys().map(String::as_str).collect();
     if let (DomainSpec::Mesh(file), false) = (domain, sides.is_empty()) {

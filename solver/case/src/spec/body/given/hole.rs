@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use alewife_mesh::spatial::Triangulated;
-use alewife_mesh::{Hole, Moments};
+use alewife_mesh::{Hole, Moments, Point};
 use serde::{Deserialize, Serialize};
 
 /// `side`: the hole of a given mesh inside the side of this name.
@@ -16,7 +16,7 @@ pub struct HoleShape {
     /// What the mesh leaves out.
     #[serde(skip)]
     #[cfg_attr(test, schemars(skip))]
-    pub(crate) hole: Option<HoleInFrame>,
+    pub(crate) hole: Option<Box<HoleInFrame>>,
 }
 
 /// A hole, seen from its centroid.
@@ -38,7 +38,7 @@ impl HoleInFrame {
     pub fn planar(hole: &Hole) -> Self {
         let center = hole.moments.centroid;
         let points = hole.outline.iter().map(|point| (point - center).into()).collect();
-        let centroid = center - center;
+        let centroid = Point::<2>::zeros();
         Self::Planar { points, moments: Moments { centroid, ..hole.moments } }
     }
 }
@@ -47,7 +47,7 @@ impl HoleShape {
     /// Nodes around it in the frame of the body, counter-clockwise (m); none in space, or before the mesh is read.
     #[must_use]
     pub fn points(&self) -> &[[f64; 2]] {
-        match &self.hole {
+        match self.hole.as_deref() {
             Some(HoleInFrame::Planar { points, .. }) => points,
             _ => &[],
         }
@@ -57,7 +57,7 @@ impl HoleShape {
     /// read.
     #[must_use]
     pub fn moments(&self) -> Option<Moments> {
-        match &self.hole {
+        match self.hole.as_deref() {
             Some(HoleInFrame::Planar { moments, .. }) => Some(*moments),
             _ => None,
         }
@@ -66,7 +66,7 @@ impl HoleShape {
     /// The solid it is in space; `None` in the plane, or before the mesh is read.
     #[must_use]
     pub fn solid(&self) -> Option<&Arc<Triangulated>> {
-        match &self.hole {
+        match self.hole.as_deref() {
             Some(HoleInFrame::Spatial(solid)) => Some(solid),
             _ => None,
         }
