@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::read::case_text::source_beside;
-use crate::text::source::{Origin, Source};
+use super::point_file::{at_end, lines, put_points, rows, text_of};
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
 
 /// What a file of seeds holds.
@@ -19,91 +18,39 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
         return Ok(());
     };
     let TomlValue::Array(tracers) = &mut tracers.value else { return Ok(()) };
-    tracers.iter_mut().try_for_each(resolve_one)
-}
-
-fn resolve_one(tracer: &mut TomlNode) -> Result<(), TreeError> {
-    let Some(entries) = tracer.table_mut() else { return Ok(()) };
-    // A path of another type is refused when the case is typed
-    let Some(file) = entries.get("file").filter(|file| file.text().is_some()).cloned() else {
-        return Ok(());
-    };
-    if entries.contains_key("points") {
-        return Err(TreeError {
-            origin: file.key.clone(),
-            message: "the tracer has both `points` and `file`".to_owned(),
-            help: "give one of them".to_owned(),
-        });
-    }
-    let points = read_points(&file)?;
-    entries.remove("file");
-    entries.insert("points".to_owned(), points);
-    Ok(())
+    tracers.iter_mut().try_for_each(|tracer| put_points(tracer, "tracer", read_points))
 }
 
 /// The points in a file, as they would be written in the case.
 fn read_points(file: &TomlNode) -> Result<TomlNode, TreeError> {
-    let name = file.text().unwrap_or_default();
-    let source = source_beside(name, &file.origin).map_err(|message| TreeError {
-        origin: file.origin.clone(),
-        message,
-        help: "give the path of a text file, relative to the file in which it is written"
-            .to_owned(),
-    })?;
-    let source = Arc::new(source);
+    let source = Arc::new(text_of(file, "text")?);
     let mut points: Vec<Vec<f64>> = Vec::new();
-    let mut start = 0;
     let mut named = false;
-    for line in source.text.split_inclusive('\n') {
-        let origin =
-            Origin { source: Arc::clone(&source), span: start..start + line.trim_end().len() };
-        start += line.len();
-        let text = line.split('#').next().unwrap_or_default().trim();
-        if text.is_empty() {
-            continue;
-        }
+    for line in lines(&source) {
         let n = points.first().map_or(0, Vec::len);
-        match point(text) {
-            Some(point) if n == 0 || point.len() == n => points.push(point),
+        let message = match line.numbers().filter(|numbers| is_point(numbers)) {
+            Some(point) if n == 0 || point.len() == n => {
+                points.push(point);
+                continue;
+            }
             // One line of names before the first point
-            None if points.is_empty() && !std::mem::replace(&mut named, true) => {}
+            None if points.is_empty() && !std::mem::replace(&mut named, true) => continue,
             Some(point) => {
-                let message =
-                    format!("this point has {} coordinates, the first has {n}", point.len());
-                return Err(TreeError { origin, message, help: WANTED.to_owned() });
+                format!("this point has {} coordinates, the first has {n}", point.len())
             }
-            None => {
-                let message = format!("this line of {name} is no point");
-                return Err(TreeError { origin, message, help: WANTED.to_owned() });
-            }
-        }
+            None => format!("this line of {} is no point", file.text().unwrap_or_default()),
+        };
+        return Err(TreeError { origin: line.origin, message, help: WANTED.to_owned() });
     }
     if points.is_empty() {
-        return Err(empty(&source));
+        let message = format!("{} has no points", source.name);
+        return Err(at_end(&source, message, WANTED.to_owned()));
     }
-    let node = |value| TomlNode { key: file.key.clone(), origin: file.origin.clone(), value };
-    let point = |point: &Vec<f64>| {
-        let numbers = point.iter().map(|x| node(TomlValue::Float(*x)));
-        node(TomlValue::Array(numbers.collect()))
-    };
-    Ok(node(TomlValue::Array(points.iter().map(point).collect())))
+    Ok(rows(file, &points))
 }
 
-fn empty(source: &Arc<Source>) -> TreeError {
-    let end = source.text.len();
-    TreeError {
-        origin: Origin { source: Arc::clone(source), span: end..end },
-        message: format!("{} has no points", source.name),
-        help: WANTED.to_owned(),
-    }
-}
-
-/// The two or three numbers of a line; `None` of other lines.
-fn point(text: &str) -> Option<Vec<f64>> {
-    let words = text.split([',', ';', ' ', '\t']).filter(|word| !word.is_empty());
-    let numbers = words.map(|word| word.parse::<f64>().ok().filter(|x| x.is_finite()));
-    let numbers = numbers.collect::<Option<Vec<f64>>>()?;
-    (2..=3).contains(&numbers.len()).then_some(numbers)
+fn is_point(numbers: &[f64]) -> bool {
+    (2..=3).contains(&numbers.len()) && numbers.iter().all(|x| x.is_finite())
 }
 
 #[cfg(test)]

@@ -3,12 +3,10 @@
 use std::sync::Arc;
 
 use super::surface_file;
-use crate::read::case_text::source_beside;
-use crate::text::source::{Origin, Source};
-use crate::text::tree::{TomlNode, TomlValue, TreeError};
-
-/// Tables of a case with shapes in them.
-const TABLES: [&str; 2] = ["body", "swimmer"];
+use crate::read::columns::point_file::{
+    at_end, lines, put_points, resolve_in_bodies, rows, text_of,
+};
+use crate::text::tree::{TomlNode, TreeError};
 
 /// What a file of corners holds.
 const WANTED: &str = "write the corner of each line as two numbers, x and y (m), with a decimal point, \
@@ -19,81 +17,26 @@ const WANTED: &str = "write the corner of each line as two numbers, x and y (m),
 /// # Errors
 /// When a file cannot be read, or holds no corners, or there are `points` beside it.
 pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
-    for table in TABLES {
-        if let Some(node) = root.table_mut().and_then(|entries| entries.get_mut(table)) {
-            resolve_below(node)?;
-        }
-    }
-    Ok(())
-}
-
-fn resolve_below(node: &mut TomlNode) -> Result<(), TreeError> {
-    match &mut node.value {
-        TomlValue::Table(entries) => {
-            for (key, entry) in entries {
-                match key.as_str() {
-                    "polygon" => resolve_polygon(entry)?,
-                    "surface" => surface_file::resolve(entry)?,
-                    _ => resolve_below(entry)?,
-                }
-            }
-        }
-        TomlValue::Array(items) => {
-            for item in items {
-                resolve_below(item)?;
-            }
-        }
-        _ => {}
-    }
-    Ok(())
-}
-
-fn resolve_polygon(polygon: &mut TomlNode) -> Result<(), TreeError> {
-    let Some(entries) = polygon.table_mut() else { return Ok(()) };
-    // A path of another type is refused when the case is typed
-    let Some(file) = entries.get("file").filter(|file| file.text().is_some()).cloned() else {
-        return Ok(());
-    };
-    if entries.contains_key("points") {
-        return Err(TreeError {
-            origin: file.key.clone(),
-            message: "the polygon has both `points` and `file`".to_owned(),
-            help: "give one of them".to_owned(),
-        });
-    }
-    let points = read_points(&file)?;
-    entries.remove("file");
-    entries.insert("points".to_owned(), points);
-    Ok(())
+    resolve_in_bodies(root, |key, entry| match key {
+        "polygon" => Some(put_points(entry, "polygon", read_points)),
+        "surface" => Some(surface_file::resolve(entry)),
+        _ => None,
+    })
 }
 
 /// The corners in a file, as they would be written in the case.
 fn read_points(file: &TomlNode) -> Result<TomlNode, TreeError> {
-    let name = file.text().unwrap_or_default();
-    let source = source_beside(name, &file.origin).map_err(|message| TreeError {
-        origin: file.origin.clone(),
-        message,
-        help: "give the path of a text file, relative to the file in which it is written"
-            .to_owned(),
-    })?;
-    let source = Arc::new(source);
+    let source = Arc::new(text_of(file, "text")?);
     let mut points: Vec<[f64; 2]> = Vec::new();
-    let mut start = 0;
-    for line in source.text.split_inclusive('\n') {
-        let origin =
-            Origin { source: Arc::clone(&source), span: start..start + line.trim_end().len() };
-        start += line.len();
-        let text = line.split('#').next().unwrap_or_default().trim();
-        if text.is_empty() {
-            continue;
-        }
-        match corner(text) {
-            Some(corner) => points.push(corner),
+    for line in lines(&source) {
+        match line.numbers().as_deref() {
+            Some(&[x, y]) => points.push([x, y]),
             // Names before the first corner
-            None if points.is_empty() => {}
-            None => {
+            _ if points.is_empty() => {}
+            _ => {
+                let name = file.text().unwrap_or_default();
                 let message = format!("this line of {name} is no corner");
-                return Err(TreeError { origin, message, help: WANTED.to_owned() });
+                return Err(TreeError { origin: line.origin, message, help: WANTED.to_owned() });
             }
         }
     }
@@ -102,30 +45,10 @@ fn read_points(file: &TomlNode) -> Result<TomlNode, TreeError> {
         points.pop();
     }
     if points.len() < 3 {
-        return Err(too_few(&source, points.len()));
+        let message = format!("{} has {} corners", source.name, points.len());
+        return Err(at_end(&source, message, format!("a polygon has three or more: {WANTED}")));
     }
-    let node = |value| TomlNode { key: file.key.clone(), origin: file.origin.clone(), value };
-    let corner = |point: &[f64; 2]| {
-        node(TomlValue::Array(point.map(|x| node(TomlValue::Float(x))).to_vec()))
-    };
-    Ok(node(TomlValue::Array(points.iter().map(corner).collect())))
-}
-
-fn too_few(source: &Arc<Source>, n: usize) -> TreeError {
-    let end = source.text.len();
-    TreeError {
-        origin: Origin { source: Arc::clone(source), span: end..end },
-        message: format!("{} has {n} corners", source.name),
-        help: format!("a polygon has three or more: {WANTED}"),
-    }
-}
-
-/// The two numbers of a line; `None` of other lines.
-fn corner(text: &str) -> Option<[f64; 2]> {
-    let words = text.split([',', ';', ' ', '\t']).filter(|word| !word.is_empty());
-    let numbers = words.map(|word| word.parse::<f64>().ok()).collect::<Option<Vec<f64>>>()?;
-    let [x, y] = numbers.as_slice() else { return None };
-    Some([*x, *y])
+    Ok(rows(file, &points))
 }
 
 #[cfg(test)]
