@@ -13,18 +13,15 @@ use crate::state::State;
 /// What is measured of a scalar.
 pub(super) struct ScalarMeasurement {
     amount: Amount,
-    field: Books,
+    /// What is made in the fluid (m3/s; m2/s planar).
+    source: f64,
+    /// What there would be of it with nothing missing in its balance (m3; m2 planar).
+    expected: f64,
     probes: Vec<f64>,
     /// What comes through each boundary.
     fluxes: Vec<f64>,
     /// The flux of each boundary for which its Sherwood number is 1; none without a difference.
     unit_fluxes: Option<Vec<f64>>,
-}
-
-/// The books of a field.
-struct Books {
-    source: f64,
-    expected: f64,
 }
 
 impl ScalarMeasurement {
@@ -41,7 +38,8 @@ impl ScalarMeasurement {
         });
         Self {
             amount: amount(mesh, tables, &field.now),
-            field: Books { source: field.source, expected: field.initial + field.added },
+            source: field.source,
+            expected: field.initial + field.added,
             probes,
             fluxes: field.fluxes.clone(),
             unit_fluxes,
@@ -55,8 +53,8 @@ impl ScalarMeasurement {
             ScalarQuantity::Mean => (total / volume).into(),
             ScalarQuantity::Minimum => minimum.into(),
             ScalarQuantity::Maximum => maximum.into(),
-            ScalarQuantity::Source => self.field.source.into(),
-            ScalarQuantity::Defect => (total - self.field.expected).into(),
+            ScalarQuantity::Source => self.source.into(),
+            ScalarQuantity::Defect => (total - self.expected).into(),
         }
     }
 
