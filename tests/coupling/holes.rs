@@ -1,24 +1,10 @@
 //! Bodies that a given mesh leaves out: loads of the side around them, and motions as in our own mesh.
 
-use alewife_core::case::{Case, Model};
-use alewife_core::run::{build_mesh, simulate};
-use alewife_mesh::{Encoding, write_msh};
+use alewife_core::case::Case;
+use alewife_core::run::simulate;
 use tests::cases::{case, column, last, run};
 use tests::figure;
-
-/// The mesh of a case in a file, and what is read of a text with this file as its domain.
-fn in_its_mesh(name: &str, own: &Model, text: &str) -> Model {
-    let mesh = build_mesh::<2>(own).expect("it is meshed");
-    let mut bytes = Vec::new();
-    write_msh(&mut bytes, &mesh, Encoding::Binary).expect("memory takes everything");
-    let folder = std::env::temp_dir().join(format!("alewife-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("there is room for files");
-    std::fs::write(folder.join("a.msh"), &bytes).expect("it is written");
-    let mesh = format!("domain.mesh.file={}", folder.join("a.msh").display());
-    let given = Case::parse("t.toml", text, &[mesh]);
-    std::fs::remove_dir_all(&folder).expect("it is ours");
-    given.unwrap_or_else(|error| panic!("{error}")).model
-}
+use tests::given::in_mesh_of;
 
 /// The flow of DFG 2D-1 in a mesh of a file, the cylinder one of its sides or a body.
 #[test]
@@ -37,9 +23,9 @@ fn a_hole_as_a_body_has_the_force_of_its_side() {
         bottom = "no-slip"
         top = "no-slip"
         "#;
-    let side = in_its_mesh("side", &own, &format!("{text}cylinder = \"no-slip\"\n"));
+    let side = in_mesh_of::<2>("side", &own, &format!("{text}cylinder = \"no-slip\"\n"));
     let body = "[[body]]\nname = \"post\"\nshape.side = \"cylinder\"\nmotion = \"held\"\n";
-    let body = in_its_mesh("body", &own, &format!("{text}{body}"));
+    let body = in_mesh_of::<2>("body", &own, &format!("{text}{body}"));
     assert!((body.bodies[0].center[0] - 0.2).abs() < 1e-9);
     let [side, body] = [run(&side), run(&body)];
     for axis in ["x", "y"] {
@@ -80,7 +66,7 @@ fn a_free_hole_falls_as_the_body_of_our_own_mesh() {
     let difference = |size: f64| {
         let [own, given] = falling("ellipse.semi_axes = [0.5, 0.3]", size);
         let own = case(&own);
-        let given = in_its_mesh(&format!("falls-{size}"), &own, &given);
+        let given = in_mesh_of::<2>(&format!("falls-{size}"), &own, &given);
         let [own, given] = [run(&own), run(&given)];
         let quantities = ["x", "y", "velocity.y", "angular_velocity"];
         let apart = quantities.map(|quantity| {
@@ -104,14 +90,14 @@ fn a_run_that_wears_a_given_mesh_stops_with_the_way_out() {
     let [own, given] = falling("disc.radius = 0.4", 0.15);
     let imposed = r#"motion = { imposed = { velocity = [0.4, -4.6], angular_velocity = 8.0 } }"#;
     let given = given.replace("motion = \"free\"", imposed).replace("density = 2.0\n", "");
-    let given = in_its_mesh("worn", &case(&own), &given);
+    let given = in_mesh_of::<2>("worn", &case(&own), &given);
     let error = simulate::<2>(&given, &mut []).expect_err("the mesh is worn").to_string();
     assert!(error.contains("not made again") && error.contains("mesh.moving.quality"), "{error}");
     // As far as its cells go it is imposed on the fluid
     let near = falling("disc.radius = 0.4", 0.15)[1].replace("density = 2.0\n", "");
     let near =
         near.replace("motion = \"free\"", &imposed.replace("-4.6", "-0.3").replace("8.0", "0.5"));
-    let near = run(&in_its_mesh("near", &case(&own), &near));
+    let near = run(&in_mesh_of::<2>("near", &case(&own), &near));
     let y = column(&near, "b.y");
     assert!((y[y.len() - 1] - (0.1 - 0.15)).abs() < 1e-6, "{y:?}");
 }

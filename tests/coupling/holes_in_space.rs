@@ -1,27 +1,13 @@
 //! Bodies that a given mesh in space leaves out: loads of the side around them, and a fall as in our own mesh.
 
-use alewife_core::case::{Case, Model};
-use alewife_core::run::{RunSummary, build_mesh, simulate};
-use alewife_mesh::{Encoding, write_msh};
+use alewife_core::case::Model;
+use alewife_core::run::{RunSummary, simulate};
 use tests::cases::{case, last};
 use tests::figure;
+use tests::given::in_mesh_of;
 
 fn run(model: &Model) -> RunSummary {
     simulate::<3>(model, &mut []).expect("it is solved")
-}
-
-/// The mesh of a case in a file, and what is read of a text with this file as its domain.
-fn in_its_mesh(name: &str, own: &Model, text: &str) -> Model {
-    let mesh = build_mesh::<3>(own).expect("it is meshed");
-    let mut bytes = Vec::new();
-    write_msh(&mut bytes, &mesh, Encoding::Binary).expect("memory takes everything");
-    let folder = std::env::temp_dir().join(format!("alewife-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("there is room for files");
-    std::fs::write(folder.join("a.msh"), &bytes).expect("it is written");
-    let mesh = format!("domain.mesh.file={}", folder.join("a.msh").display());
-    let given = Case::parse("t.toml", text, &[mesh]);
-    std::fs::remove_dir_all(&folder).expect("it is ours");
-    given.unwrap_or_else(|error| panic!("{error}")).model
 }
 
 /// A case of a sphere in a box that is driven through, or falls.
@@ -55,9 +41,9 @@ fn a_hole_in_space_as_a_body_has_the_force_of_its_side() {
     let sphere = "[[body]]\nname = \"sphere\"\nshape.sphere.radius = 0.4\ncenter = [0.1, 0.0, 0.1]\nmotion = \"held\"\n";
     let own = case(&text(0.3, &format!("{BOX}{rest}{sphere}")));
     let side =
-        in_its_mesh("solid-side", &own, &text(0.3, &format!("{rest}sphere = \"no-slip\"\n")));
+        in_mesh_of::<3>("solid-side", &own, &text(0.3, &format!("{rest}sphere = \"no-slip\"\n")));
     let body = "[[body]]\nname = \"ball\"\nshape.side = \"sphere\"\nmotion = \"held\"\n";
-    let body = in_its_mesh("solid-body", &own, &text(0.3, &format!("{rest}{body}")));
+    let body = in_mesh_of::<3>("solid-body", &own, &text(0.3, &format!("{rest}{body}")));
     let center = &body.bodies[0].center;
     assert!((center[0] - 0.1).abs() < 1e-3 && center[1].abs() < 1e-3, "{center:?}");
     let [side, body] = [run(&side), run(&body)];
@@ -82,7 +68,7 @@ fn a_free_hole_in_space_falls_as_the_sphere_of_our_own_mesh() {
         let sphere = "shape.sphere.radius = 0.4\ncenter = [0.1, 0.0, 0.1]\n";
         let own = case(&text(size, &format!("{rest}{BOX}{body}{sphere}")));
         let given = format!("{rest}{body}shape.side = \"b\"\n");
-        let given = in_its_mesh(&format!("solid-falls-{size}"), &own, &text(size, &given));
+        let given = in_mesh_of::<3>(&format!("solid-falls-{size}"), &own, &text(size, &given));
         let [own, given] = [run(&own), run(&given)];
         let apart = ["velocity.x", "velocity.y", "y"].map(|quantity| {
             let [own, given] = [&own, &given].map(|run| last(run, &format!("b.{quantity}")));

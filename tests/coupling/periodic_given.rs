@@ -2,23 +2,11 @@
 
 use alewife_core::case::{Case, CaseFile, Model, check};
 use alewife_core::run::{build_mesh, simulate};
-use alewife_mesh::{Boundary, BoundaryId, BoundaryKind, Encoding, Mesh, Point, write_msh};
+use alewife_mesh::{Boundary, BoundaryId, BoundaryKind, Mesh, Point};
 use tests::BoxOfTetrahedra;
 use tests::cases::{case, last, run};
 use tests::figure;
-
-/// What is read of a text with a mesh in a file as its domain.
-fn given<const D: usize>(name: &str, mesh: &Mesh<D>, text: &str) -> Result<CaseFile, String> {
-    let mut bytes = Vec::new();
-    write_msh(&mut bytes, mesh, Encoding::Binary).expect("memory takes everything");
-    let folder = std::env::temp_dir().join(format!("alewife-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("there is room for files");
-    std::fs::write(folder.join("a.msh"), &bytes).expect("it is written");
-    let mesh = format!("domain.mesh.file={}", folder.join("a.msh").display());
-    let file = Case::parse("t.toml", text, &[mesh]);
-    std::fs::remove_dir_all(&folder).expect("it is ours");
-    file.map_err(|error| error.to_string())
-}
+use tests::given::in_mesh;
 
 fn model(file: Result<CaseFile, String>) -> Model {
     let file = file.unwrap_or_else(|error| panic!("{error}"));
@@ -49,7 +37,7 @@ fn an_array_in_a_given_mesh_has_the_drag_of_our_own_and_of_the_literature() {
     let own = Case::read("periodic-cylinders", &settings).expect("it is shipped").model;
     let mesh = build_mesh::<2>(&own).expect("it is meshed");
     let body = "[[body]]\nname = \"post\"\nshape.side = \"cylinder\"\nmotion = \"held\"\n";
-    let body = run(&model(given("array-body", &mesh, &format!("{ARRAY}{body}"))));
+    let body = run(&model(in_mesh("array-body", &mesh, &format!("{ARRAY}{body}"))));
     let own = last(&run(&own), "cylinder.force.x");
     let force = last(&body, "post.force.x");
     figure!(force, "drag");
@@ -78,7 +66,7 @@ fn a_mean_gradient_drives_a_channel_of_a_given_mesh() {
     };
     let own = case(&text("domain.channel = { length = 2.0, height = 1.0 }"));
     let mesh = build_mesh::<2>(&own).expect("it is meshed");
-    let speed = last(&run(&model(given("channel", &mesh, &text("")))), "p.velocity.x");
+    let speed = last(&run(&model(in_mesh("channel", &mesh, &text("")))), "p.velocity.x");
     assert!((speed - 3.0 / (8.0 * 0.5)).abs() < 1e-9, "{speed}");
 }
 
@@ -121,7 +109,7 @@ fn a_mean_gradient_drives_a_slit_of_a_given_mesh_in_space() {
         bottom = "no-slip"
         top = "no-slip"
         "#;
-    let given = model(given("slit", &box_in_space(), text));
+    let given = model(in_mesh("slit", &box_in_space(), text));
     let outcome = simulate::<3>(&given, &mut []).expect("it is solved");
     let speed = last(&outcome, "p.velocity.x");
     assert!((speed - 3.0).abs() < 1e-6, "{speed}");
@@ -135,9 +123,9 @@ fn sides_of_a_given_mesh_that_are_no_pairs_are_refused() {
         "domain.box = { min = [0.0, 0.0], max = [1.0, 1.0] }\n    mesh.size",
     ));
     let mesh = build_mesh::<2>(&own).expect("it is meshed");
-    assert!(given("pairs", &mesh, ARRAY).is_ok());
+    assert!(in_mesh("pairs", &mesh, ARRAY).is_ok());
     let told = |mesh: &Mesh<2>, text: &str, words: &[&str]| {
-        let error = match given("no-pairs", mesh, text) {
+        let error = match in_mesh("no-pairs", mesh, text) {
             Err(error) => error,
             Ok(file) => format!("{:?}", check(&file)),
         };

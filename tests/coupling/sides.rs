@@ -1,9 +1,9 @@
 //! Loads and fluxes of sides against exact flows, against bodies, and by conservation.
 
 use alewife_core::case::Case;
-use alewife_core::run::{RunSummary, build_mesh, simulate};
-use alewife_mesh::{Encoding, write_msh};
+use alewife_core::run::{RunSummary, simulate};
 use tests::cases::{case, last, run};
+use tests::given::in_mesh_of;
 
 /// Sum of a quantity over owners.
 fn sum(outcome: &RunSummary, owners: &[&str], quantity: &str) -> f64 {
@@ -201,12 +201,6 @@ fn a_hole_of_a_given_mesh_has_the_drag_of_a_body() {
     let settings = ["mesh.scale=2.0", "time.steady.tolerance=1e-11", "reference=[]"];
     let settings = settings.map(str::to_owned);
     let body = Case::read("dfg-2d-1", &settings).expect("it is shipped").model;
-    let mesh = build_mesh::<2>(&body).expect("it is meshed");
-    let mut bytes = Vec::new();
-    write_msh(&mut bytes, &mesh, Encoding::Binary).expect("memory takes everything");
-    let folder = std::env::temp_dir().join(format!("alewife-hole-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("there is room for files");
-    std::fs::write(folder.join("dfg.msh"), &bytes).expect("it is written");
     let text = r#"
         title = "given"
         geometry = "planar"
@@ -220,11 +214,8 @@ fn a_hole_of_a_given_mesh_has_the_drag_of_a_body() {
         top = "no-slip"
         cylinder = "no-slip"
         "#;
-    let mesh = format!("domain.mesh.file={}", folder.join("dfg.msh").display());
-    let given = Case::parse("t.toml", text, &[mesh]).unwrap_or_else(|error| panic!("{error}"));
-    let hole = run(&given.model);
+    let hole = run(&in_mesh_of::<2>("hole", &body, text));
     let body = run(&body);
-    std::fs::remove_dir_all(&folder).expect("it is ours");
     for quantity in ["force.x", "force.y"] {
         let name = format!("cylinder.{quantity}");
         let (hole, body) = (last(&hole, &name), last(&body, &name));

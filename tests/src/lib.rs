@@ -3,6 +3,7 @@
 pub mod cases;
 pub mod exact;
 mod figures;
+pub mod given;
 mod moved;
 mod norms;
 mod setup;
