@@ -173,6 +173,9 @@ fn viewers_change_no_bit_and_one_that_takes_nothing_delays_nothing() {
     let mut live = start(directory.path(), &arguments);
     // One subscribes to everything and then reads nothing, one speaks no protocol, one goes at once
     let mut idle = Viewer::connect(&live.address, "foxglove.sdk.v1");
+    // Once it is told of channels: who subscribes to more than that is sent away
+    idle.text();
+    idle.channels("/forces");
     for id in 0..10 {
         idle.subscribe(id, &json!({"id": id}));
     }
