@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::body::command::Command;
 use super::body::stroke::Cycle;
 use super::formula::Formula;
-use super::mesh_file::{MeshFile, RegionSpec};
 #[cfg(test)]
 use crate::spec::number::{FormulaPerDimension, NonNegative, NonZero, PerDimension, Positive};
+use crate::{MeshFile, RegionSpec};
 
 /// Dimension and symmetry of the problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
