@@ -67,7 +67,7 @@ pub fn read_into(case: &mut Case, root: &TomlNode) -> Result<(), TreeError> {
     if case.geometry != Geometry::Spatial || !is_ready(spec, &sizing) {
         return Ok(());
     }
-    let refused = |RegionFault { key, message, help }: RegionFault| {
+    let refused = |RegionFault { key, message, help, .. }: RegionFault| {
         let found = root.find(&key);
         let at_data = root.find("domain.surface.data");
         let node = if found.is_exact { found.node } else { at_data.node };
@@ -101,10 +101,9 @@ fn is_ready(spec: &RegionSpec, sizing: &Sizing<3>) -> bool {
 
 /// The inside of a surface, its sides told apart.
 fn region(spec: &RegionSpec, sizing: &Sizing<3>) -> Result<RegionMesh, RegionFault> {
-    let of_surface = |fault: SurfaceFault| RegionFault {
-        key: "domain.surface.data".to_owned(),
-        message: format!("the surface of the domain: {fault}"),
-        help: fault.remedy().to_owned(),
+    let of_surface = |fault: SurfaceFault| {
+        let message = format!("the surface of the domain: {fault}");
+        RegionFault::new("domain.surface.data", message, fault.remedy().to_owned())
     };
     let data = spec.data.as_deref().unwrap_or_default();
     let mesh = TriangleMesh::from_line(data).map_err(of_surface)?.scaled(spec.scale);
@@ -139,13 +138,13 @@ fn sides(spec: &RegionSpec, mesh: &TriangleMesh) -> Result<Sides, RegionFault> {
         let own = triangles_of(part, mesh, &solids);
         if own.is_empty() {
             let message = format!("no triangle of the surface is on the side `{side}`");
-            return Err(RegionFault { key, message, help: parts_there_are(mesh, &solids) });
+            return Err(RegionFault::new(&key, message, parts_there_are(mesh, &solids)));
         }
         for triangle in own {
             if let Some(other) = of[triangle].replace(number) {
                 let message = format!("the sides `{}` and `{side}` overlap", names[other]);
                 let help = "give each triangle one side".to_owned();
-                return Err(RegionFault { key, message, help });
+                return Err(RegionFault::new(&key, message, help));
             }
         }
     }

@@ -14,7 +14,7 @@ pub fn check(findings: &mut Findings<'_>) {
         findings.warning("domain.mesh.file", note.clone(), help);
     }
     if let Some(fault) = case.given_mesh().and_then(MeshFile::fault) {
-        findings.error(&fault.key, fault.message.clone(), &fault.help);
+        findings.error(&fault.key, fault.message, &fault.help);
     }
     let is_made = matches!(case.domain, DomainSpec::Surface(_));
     if let DomainSpec::Surface(region) = &case.domain

@@ -172,7 +172,7 @@ impl MeshFile {
 
     /// Why the inside of its surface has no mesh, if it has none.
     #[must_use]
-    pub fn fault(&self) -> Option<&RegionFault> {
+    pub fn fault(&self) -> Option<RegionFault> {
         match &self.source {
             MeshSource::Inside(region) => region.contents().err(),
             MeshSource::Unread | MeshSource::File(_) => None,

@@ -23,6 +23,14 @@ pub struct RegionFault {
     pub message: String,
     /// What may be done about it.
     pub help: String,
+    /// Whether meshing was asked to end, which says nothing of the region.
+    was_ended: bool,
+}
+
+impl RegionFault {
+    pub(crate) fn new(key: &str, message: String, help: String) -> Self {
+        Self { key: key.to_owned(), message, help, was_ended: false }
+    }
 }
 
 /// The inside of a surface and the sizes of its cells, which is meshed once its mesh is asked for: a case that is
@@ -48,27 +56,34 @@ impl RegionMesh {
     }
 
     /// What is made of it, the same at each time.
-    pub(crate) fn contents(&self) -> Result<&Contents, &RegionFault> {
-        if let Some(made) = self.made.get() {
-            return made.as_ref();
-        }
-        // Outside the lock: threads that mesh may be lent to another task that asks for the same
-        let made = self.make();
-        self.made.get_or_init(|| made).as_ref()
+    pub(crate) fn contents(&self) -> Result<&Contents, RegionFault> {
+        let kept = match self.made.get() {
+            Some(kept) => kept,
+            None => {
+                // Outside the lock: threads that mesh may be lent to another task that asks for the same
+                let made = self.make();
+                if let Err(fault) = &made
+                    && fault.was_ended
+                {
+                    return Err(fault.clone());
+                }
+                self.made.get_or_init(|| made)
+            }
+        };
+        kept.as_ref().map_err(Clone::clone)
     }
 
     fn make(&self) -> Result<Contents, RegionFault> {
         let failed = |error: MeshError| {
-            RegionFault {
-            key: match error {
-                MeshError::UnknownSide { .. } => "mesh.sides".to_owned(),
-                _ => "domain.surface".to_owned(),
-            },
-            message: format!("the inside of the surface cannot be meshed: {error}"),
-            help: "take a smaller mesh.size, or a smaller edge length in mesh.sides where it is, or round edges that \
-                   are too sharp"
-                .to_owned(),
-        }
+            let key = match error {
+                MeshError::UnknownSide { .. } => "mesh.sides",
+                _ => "domain.surface",
+            };
+            let help = "take a smaller mesh.size, or a smaller edge length in mesh.sides where it is, or round edges \
+                        that are too sharp";
+            let message = format!("the inside of the surface cannot be meshed: {error}");
+            let was_ended = error == MeshError::Stopped;
+            RegionFault { was_ended, ..RegionFault::new(key, message, help.to_owned()) }
         };
         let (region, sizing) = (&self.region, &self.sizing);
         let n_cells = estimate_cells_inside(region, sizing, MOST_CELLS).map_err(failed)?;
@@ -89,14 +104,11 @@ impl RegionMesh {
                 self.scale * 1e-3
             )
         };
-        RegionFault {
-            key: "mesh.size".to_owned(),
-            message: format!(
-                "the inside of the surface would have more than {MOST_CELLS:e} cells, by sizes and by how its wall \
-                 bends and narrows"
-            ),
-            help: "write a larger size, fewer gap_layers, or a larger mesh.scale".to_owned()
-                + &unit,
-        }
+        let message = format!(
+            "the inside of the surface would have more than {MOST_CELLS:e} cells, by sizes and by how its wall bends \
+             and narrows"
+        );
+        let help = "write a larger size, fewer gap_layers, or a larger mesh.scale".to_owned();
+        RegionFault::new("mesh.size", message, help + &unit)
     }
 }

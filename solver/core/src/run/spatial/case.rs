@@ -107,6 +107,6 @@ pub(super) fn move_into(domain: &Domain, solids: &mut [Solid]) -> Vec<Vector3<f6
 /// Why a case has no domain in space.
 pub(super) fn no_domain(case: &Case) -> RunError {
     let fault = case.given_mesh().and_then(MeshFile::fault);
-    let reason = fault.map_or("this domain is not one in three dimensions", |why| &why.message);
-    RunError::Unsupported(reason.to_owned())
+    let planar = || "this domain is not one in three dimensions".to_owned();
+    RunError::Unsupported(fault.map_or_else(planar, |fault| fault.message))
 }
