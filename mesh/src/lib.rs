@@ -9,7 +9,6 @@ mod check;
 mod count;
 mod error;
 mod hole;
-pub mod interrupt;
 mod locate;
 mod mesh;
 mod msh;
@@ -26,6 +25,7 @@ mod surface;
 mod test_meshes;
 mod vtu;
 
+pub(crate) use alewife_interrupt as interrupt;
 pub use box_tree::{Bounds, BoxTree};
 pub use check::check_mesh;
 pub use error::MeshError;
