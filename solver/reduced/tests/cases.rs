@@ -298,7 +298,7 @@ fn wrong_cases_and_records_are_refused_with_key_line_and_remedy() {
             changed("poisson = 0.3", "poisson = 0.5"),
             good.clone(),
             "solid.0.material.poisson",
-            "below 0.5",
+            "write order = \"quadratic\"",
         ),
         (changed("frame = 0.04", "frame = 0.05"), good.clone(), "soft.frame", "time between rows"),
         (

@@ -2,6 +2,7 @@
 
 mod cases;
 mod gradients;
+mod kept_volumes;
 mod searches;
 mod shipped;
 mod swimmers;

@@ -99,3 +99,11 @@ pub fn bar_in_space(material: Material) -> SoftBody<3> {
     });
     bar(mesh, Frame::Space, material, 0.0)
 }
+
+/// A short bar in space of quadratic cells.
+pub fn short_bar_in_space(material: Material) -> SoftBody<3> {
+    let mesh = tetrahedra([4, 1, 1], |x| {
+        Point::from([0.1 * x[0], 0.03 * (x[1] - 0.5), 0.02 * (x[2] - 0.5)])
+    });
+    bar(mesh.quadratic(), Frame::Space, material, -1.0)
+}

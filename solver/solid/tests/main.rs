@@ -3,6 +3,7 @@
 mod beams;
 mod benchmarks;
 mod convergence;
+mod incompressible;
 mod meshes;
 mod patch;
 mod time;

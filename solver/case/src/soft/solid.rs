@@ -108,7 +108,7 @@ fn one() -> f64 {
 pub enum SolidOrder {
     /// One strain a cell: too stiff in bending and near nu = 0.5.
     Linear,
-    /// Good to nu = 0.49.
+    /// Good to nu = 0.49 by places alone, and at 0.5 with linear pressures.
     #[default]
     Quadratic,
 }
@@ -124,7 +124,7 @@ pub struct MaterialSpec {
     /// Young's modulus (Pa).
     #[cfg_attr(test, schemars(with = "Positive"))]
     pub young: f64,
-    /// Poisson's ratio, above -1 and below 0.5.
+    /// Poisson's ratio, above -1 and at most 0.5: 0.5 keeps the volume, by pressures, in quadratic cells.
     pub poisson: f64,
     /// Density at rest (kg/m3).
     #[cfg_attr(test, schemars(with = "Positive"))]
@@ -133,6 +133,14 @@ pub struct MaterialSpec {
     #[serde(default)]
     #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub viscosity: f64,
+}
+
+impl MaterialSpec {
+    /// Whether its volume cannot change.
+    #[must_use]
+    pub fn is_incompressible(&self) -> bool {
+        self.poisson == 0.5
+    }
 }
 
 /// An elastic energy.

@@ -275,6 +275,7 @@ impl<const D: usize> Backward<'_, D> {
         }
         add(&mut self.gradient.shape, 1.0, &self.places[0]);
         add(&mut self.gradient.shape, 1.0, by_rest);
+        self.gradient.shape.truncate(self.body.solid.n_places());
         self.gradient
     }
 }

@@ -17,7 +17,7 @@ use crate::soft::Trajectory;
 const MOST: usize = 60;
 
 /// Writes `fields/frame-NNNN.vtu` and `fields.pvd` below a directory: places and velocities of the body at up to
-/// sixty frames, on quadratic cells.
+/// sixty frames, on quadratic cells, and the mean pressures of cells where some keep their volume.
 ///
 /// # Errors
 /// What the file system reports.
@@ -42,15 +42,20 @@ where
     for frame in (0..=n_frames).filter(|frame| frame % every == 0 || *frame == n_frames) {
         let level = &motion.levels[frame * plan.substeps];
         let time = frame as f64 * plan.frame;
-        let velocities: Vec<f64> = quadratic(own, &level.velocities)
+        let solid = &model.body.solid;
+        let n_places = solid.n_places();
+        let velocities: Vec<f64> = quadratic(own, &level.velocities[..n_places])
             .iter()
             .flat_map(|v| v.iter().copied().collect::<Vec<_>>())
             .collect();
-        let mesh = Mesh::new(quadratic(own, &level.places), topology.clone());
+        let mesh = Mesh::new(quadratic(own, &level.places[..n_places]), topology.clone());
         let name = format!("fields/frame-{frame:04}.vtu");
         let velocity = Array::new("velocity", D, &velocities);
+        let pressures = solid.pressures(&level.places);
+        let pressure = [Array::new("pressure", 1, &pressures)];
+        let pressure = if solid.pressure_nodes().is_empty() { &[] } else { &pressure[..] };
         let mut bytes = Vec::new();
-        write_vtu(&mut bytes, &mesh, Some(time), &[velocity], &[])?;
+        write_vtu(&mut bytes, &mesh, Some(time), &[velocity], pressure)?;
         write_whole(&directory.join(&name), bytes)?;
         let _ = writeln!(list, "<DataSet timestep=\"{time}\" file=\"{name}\"/>");
     }

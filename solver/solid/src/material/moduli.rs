@@ -10,8 +10,8 @@ pub enum MaterialError {
     /// Young's modulus is not positive.
     #[error("Young's modulus is {0} Pa: it has to be positive")]
     Young(f64),
-    /// Poisson's ratio is out of the range of a stable solid that can be compressed.
-    #[error("Poisson's ratio is {0}: it has to be above -1 and below 0.5")]
+    /// Poisson's ratio is out of the range of a stable solid.
+    #[error("Poisson's ratio is {0}: it has to be above -1 and at most 0.5")]
     Poisson(f64),
     /// The density is not positive.
     #[error("the density is {0} kg/m3: it has to be positive")]
@@ -28,7 +28,7 @@ pub struct Material {
     pub law: Law,
     /// Young's modulus E (Pa).
     pub young: f64,
-    /// Poisson's ratio nu.
+    /// Poisson's ratio nu; 0.5 for a material that cannot be compressed, J = 1.
     pub poisson: f64,
     /// Density (kg/m3) at rest.
     pub density: f64,
@@ -46,7 +46,7 @@ impl Material {
         if !positive(self.young) {
             return Err(MaterialError::Young(self.young));
         }
-        if !(self.poisson > -1.0 && self.poisson < 0.5) {
+        if !(self.poisson > -1.0 && self.poisson <= 0.5) {
             return Err(MaterialError::Poisson(self.poisson));
         }
         if !positive(self.density) {
@@ -58,10 +58,20 @@ impl Material {
         Ok(())
     }
 
-    /// Lamé's moduli of Hooke's law at small strains.
+    /// Whether its volume cannot change: a pressure stands for the volume term of its law.
+    #[must_use]
+    pub fn is_incompressible(&self) -> bool {
+        self.poisson == 0.5
+    }
+
+    /// Lamé's moduli of Hooke's law at small strains; where the volume cannot change lambda, which is infinite, is
+    /// left out as 0.
     #[must_use]
     pub fn lame(&self) -> Lame {
         let (young, nu) = (self.young, self.poisson);
+        if self.is_incompressible() {
+            return Lame { shear: young / 3.0, volume: 0.0 };
+        }
         Lame {
             shear: young / (2.0 * (1.0 + nu)),
             volume: young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
@@ -74,9 +84,13 @@ impl Material {
         Self { young: 1.0, ..*self }.lame()
     }
 
-    /// Derivatives of Lamé's moduli by Poisson's ratio (Pa).
+    /// Derivatives of Lamé's moduli by Poisson's ratio (Pa); 0 where the volume cannot change, which leaves no
+    /// other ratio.
     #[must_use]
     pub fn lame_by_poisson(&self) -> Lame {
+        if self.is_incompressible() {
+            return Lame { shear: 0.0, volume: 0.0 };
+        }
         let (young, nu) = (self.young, self.poisson);
         let denominator = (1.0 + nu) * (1.0 - 2.0 * nu);
         Lame {

@@ -19,6 +19,20 @@ pub struct Moduli {
 }
 
 impl Moduli {
+    /// The moduli of an energy less a pressure (Pa) times the volume ratio of the stretches.
+    #[must_use]
+    pub(super) fn under(&self, pressure: f64, s: [f64; 3]) -> Self {
+        let mut moduli = *self;
+        for (pair, [i, j]) in PAIRS.into_iter().enumerate() {
+            let third = pressure * s[2 - pair];
+            moduli.stretch[(i, j)] -= third;
+            moduli.stretch[(j, i)] -= third;
+            moduli.twist[pair] += third;
+            moduli.flip[pair] -= third;
+        }
+        moduli
+    }
+
     /// The nearest moduli that are not negative in any direction.
     #[must_use]
     pub fn positive(&self) -> Self {

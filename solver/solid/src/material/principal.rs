@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::law::FirstOrder;
-use super::pairs::PAIRS;
+use super::pairs::{Moduli, PAIRS};
 use super::{Curvature, Lame, Law, Tangent, Tensor};
 
 /// Two columns are orthogonal where the square of their cosine is below this.
@@ -94,6 +94,19 @@ impl Principal {
         }
     }
 
+    /// Volume ratio J.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.stretches.iter().product()
+    }
+
+    /// Derivatives J F^-T of the volume ratio by the deformation gradient.
+    #[must_use]
+    pub fn cofactor(&self) -> Tensor {
+        let [a, b, c] = self.stretches;
+        self.tensor([b * c, c * a, a * b])
+    }
+
     /// Derivatives of the stress by the shear modulus and by lambda.
     #[must_use]
     pub fn stress_by_moduli(&self, law: Law) -> [Tensor; 2] {
@@ -103,9 +116,25 @@ impl Principal {
     /// Derivatives of the stress by the deformation gradient (Pa).
     #[must_use]
     pub fn tangent(&self, law: Law, lame: Lame, curvature: Curvature) -> Tangent {
-        let moduli = law.moduli(self.stretches, lame);
+        self.tangent_of(&law.moduli(self.stretches, lame), curvature)
+    }
+
+    /// The same of an energy less a pressure (Pa) times the volume ratio.
+    #[must_use]
+    pub fn tangent_under(
+        &self,
+        law: Law,
+        lame: Lame,
+        pressure: f64,
+        curvature: Curvature,
+    ) -> Tangent {
+        let moduli = law.moduli(self.stretches, lame).under(pressure, self.stretches);
+        self.tangent_of(&moduli, curvature)
+    }
+
+    fn tangent_of(&self, moduli: &Moduli, curvature: Curvature) -> Tangent {
         let moduli = match curvature {
-            Curvature::True => moduli,
+            Curvature::True => *moduli,
             Curvature::Positive => moduli.positive(),
         };
         let dyad = |i: usize, j: usize| -> SVector<f64, 9> {

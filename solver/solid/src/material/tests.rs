@@ -126,6 +126,22 @@ fn stress_and_tangent_are_derivatives_by_the_deformation() {
 }
 
 #[test]
+fn a_pressure_has_the_stress_and_tangent_of_the_volume() {
+    let at = deformation();
+    let principal = |f: &Tensor| Principal::of(f).expect("it is not turned over");
+    assert!((principal(&at).volume() - at.determinant()).abs() < 1e-14);
+    let by_volume = slopes(Tensor::determinant, &at);
+    assert!((principal(&at).cofactor() - by_volume).norm() < 1e-8);
+    let pressure = 0.7;
+    for law in LAWS {
+        let under =
+            |f: &Tensor| principal(f).stress(law, LAME).stress - principal(f).cofactor() * pressure;
+        let tangent = principal(&at).tangent_under(law, LAME, pressure, Curvature::True);
+        assert!((tangent - differences(under, &at)).norm() < 1e-7, "{law:?}");
+    }
+}
+
+#[test]
 fn fibres_and_damping_have_the_stress_and_tangent_of_their_energies() {
     let at = deformation();
     let fibre = Fibre { direction: Vector3::new(0.6, 0.0, 0.8), stiffness: 3.0, target: 0.8 };
@@ -207,7 +223,7 @@ fn moduli_follow_young_and_poisson() {
     assert!(material.check().is_ok());
     for (wrong, says) in [
         (Material { young: 0.0, ..material }, "Young's modulus is 0 Pa: it has to be positive"),
-        (Material { poisson: 0.5, ..material }, "Poisson's ratio is 0.5: it has to be above -1"),
+        (Material { poisson: 0.51, ..material }, "Poisson's ratio is 0.51: it has to be above -1"),
         (Material { density: f64::NAN, ..material }, "the density is NaN kg/m3"),
         (Material { viscosity: -1.0, ..material }, "the viscosity of the solid is -1 Pa s"),
     ] {

@@ -4,7 +4,7 @@ use alewife_mesh::Point;
 use nalgebra::SVector;
 
 use super::build::Solid;
-use super::geometry::{At, MAX_NODES, MAX_UNKNOWNS};
+use super::geometry::{At, MAX_NODES, MAX_PLACES, MAX_UNKNOWNS};
 use crate::material::{Curvature, Fibre, Principal, Stress, Tangent, Tensor, Viscous, green};
 
 /// Green's strain as the backward difference of a step has it from levels before.
@@ -46,6 +46,7 @@ pub(super) struct Stiffness {
 pub(super) struct Deformed {
     deformation: Tensor,
     principal: Principal,
+    pressure: Option<f64>,
 }
 
 /// What acts at a quadrature point.
@@ -55,6 +56,7 @@ pub(super) struct Response<'a, const D: usize> {
     deformation: Tensor,
     principal: Principal,
     viscous: Option<Viscous>,
+    pressure: Option<f64>,
     controls: Controls<'a>,
 }
 
@@ -71,8 +73,8 @@ impl<'a, const D: usize> Response<'a, D> {
             stiffness: 2.0 * viscosity * history.rate,
             history: history.strains[number],
         });
-        let Deformed { deformation, principal } = at;
-        Self { solid, cell, deformation, principal, viscous, controls }
+        let Deformed { deformation, principal, pressure } = at;
+        Self { solid, cell, deformation, principal, viscous, pressure, controls }
     }
 
     /// Fibres of the cell.
@@ -100,6 +102,11 @@ impl<'a, const D: usize> Response<'a, D> {
         self.viscous.as_ref()
     }
 
+    /// The pressure, where the volume is kept.
+    pub(super) fn pressure(&self) -> Option<f64> {
+        self.pressure
+    }
+
     /// The singular values of the deformation.
     pub(super) fn principal(&self) -> &Principal {
         &self.principal
@@ -110,6 +117,10 @@ impl<'a, const D: usize> Response<'a, D> {
         let material = self.solid.material_of(self.cell);
         let law = self.solid.spec.materials[material].law;
         let mut stress = self.principal.stress(law, self.solid.lame[material]);
+        if let Some(pressure) = self.pressure {
+            stress.energy -= pressure * (self.principal.volume() - 1.0);
+            stress.stress -= self.principal.cofactor() * pressure;
+        }
         for (_, fibre) in self.fibres() {
             stress.energy += fibre.energy(&self.deformation);
             stress.stress += fibre.stress(&self.deformation);
@@ -125,7 +136,11 @@ impl<'a, const D: usize> Response<'a, D> {
     pub(super) fn tangent(&self, curvature: Curvature) -> Tangent {
         let material = self.solid.material_of(self.cell);
         let law = self.solid.spec.materials[material].law;
-        let mut tangent = self.principal.tangent(law, self.solid.lame[material], curvature);
+        let lame = self.solid.lame[material];
+        let mut tangent = match self.pressure {
+            Some(pressure) => self.principal.tangent_under(law, lame, pressure, curvature),
+            None => self.principal.tangent(law, lame, curvature),
+        };
         for (_, fibre) in self.fibres() {
             tangent += fibre.tangent(&self.deformation, curvature);
         }
@@ -166,14 +181,10 @@ impl<const D: usize> Solid<D> {
                 let Some(principal) = principal.or_else(|| Principal::of(&deformation)) else {
                     return false;
                 };
-                let response = Response::new(
-                    self,
-                    cell,
-                    number,
-                    controls,
-                    Deformed { deformation, principal },
-                );
-                visit(cell, self.points.at(cell, k), response);
+                let at = self.points.at(cell, k);
+                let pressure = self.pressures.at(cell, at.shares, places);
+                let deformed = Deformed { deformation, principal, pressure };
+                visit(cell, at, Response::new(self, cell, number, controls, deformed));
             }
         }
         true
@@ -184,6 +195,29 @@ impl<const D: usize> Solid<D> {
     pub fn principals(&self, places: &[f64]) -> Vec<Principal> {
         let all: Option<Vec<_>> = self.deformations(places).iter().map(Principal::of).collect();
         all.unwrap_or_default()
+    }
+
+    /// The mean volume ratio of each cell in a state.
+    #[must_use]
+    pub fn volume_ratios(&self, places: &[f64]) -> Vec<f64> {
+        let n = self.points.n_points;
+        let deformations = self.deformations(places);
+        let cells = deformations.chunks_exact(n).zip(self.points.weights.chunks_exact(n));
+        cells
+            .map(|(deformations, weights)| {
+                let pairs = deformations.iter().zip(weights);
+                let sum: f64 = pairs.map(|(f, weight)| f.determinant() * weight).sum();
+                sum / weights.iter().sum::<f64>()
+            })
+            .collect()
+    }
+
+    /// The mean pressure (Pa) of each cell in a state; 0 where it can be compressed.
+    #[must_use]
+    pub fn pressures(&self, state: &[f64]) -> Vec<f64> {
+        let share = [1.0 / (D as f64 + 1.0); 4];
+        let mean = |cell| self.pressures.at(cell, &share, state).unwrap_or(0.0);
+        (0..self.spec.mesh.n_cells()).map(mean).collect()
     }
 
     /// The cells turned over in a state, if any: the first of them.
@@ -221,8 +255,12 @@ impl<const D: usize> Solid<D> {
             let Stress { energy: part, stress } = response.stress();
             energy += at.weight * part;
             known.push(*response.principal());
-            let mut local = [0.0; MAX_UNKNOWNS];
+            let mut local = [0.0; MAX_PLACES];
             at.add_forces(&stress, &mut local);
+            let excess = at.weight * (response.principal().volume() - 1.0);
+            for (pressure, share) in self.pressures.of(cell).iter().zip(at.shares) {
+                forces[*pressure] -= factor * share * excess;
+            }
             for (a, node) in self.nodes_of(cell).iter().enumerate() {
                 for i in 0..D {
                     forces[node * D + i] += factor * local[a * D + i];
@@ -247,6 +285,9 @@ impl<const D: usize> Solid<D> {
         let mut point = 0;
         self.each_known_point(places, controls, known, |cell, at, response| {
             add_point(&at, &response.tangent(curvature), factor, &mut matrix);
+            if response.pressure().is_some() {
+                add_volume(&at, &response.principal().cofactor(), factor, &mut matrix);
+            }
             if point == last {
                 self.pattern.add_cell(cell, values, |p, q| matrix[p][q]);
                 matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
@@ -296,6 +337,23 @@ fn add_point<const D: usize>(
                     entries[b * D + 1] += row[8] * at.shapes[b] * at.curvature;
                 }
             }
+        }
+    }
+}
+
+/// Adds how the volume of a quadrature point changes by the places of its cell, by the pressures at the vertices.
+fn add_volume<const D: usize>(
+    at: &At<'_, D>,
+    cofactor: &Tensor,
+    factor: f64,
+    matrix: &mut [[f64; MAX_UNKNOWNS]; MAX_UNKNOWNS],
+) {
+    let mut slopes = [0.0; MAX_PLACES];
+    at.add_forces(cofactor, &mut slopes);
+    let n = D * at.shapes.len();
+    for (entries, share) in matrix[n..].iter_mut().zip(at.shares) {
+        for (entry, slope) in entries.iter_mut().zip(&slopes[..n]) {
+            *entry -= factor * share * slope;
         }
     }
 }

@@ -9,9 +9,10 @@ use super::SolidError;
 use super::cholesky::Cholesky;
 use super::geometry::CellPoints;
 use super::mass::Mass;
-use super::mesh::{Frame, SolidMesh};
-use super::pattern::Pattern;
-use crate::material::{Lame, Material, Tensor};
+use super::mesh::{Frame, Order, SolidMesh};
+use super::mixed::pressures::Pressures;
+use super::pattern::{Cells, Pattern};
+use crate::material::{Lame, Material, MaterialError, Tensor};
 
 /// Fibres that are told one stretch: a muscle, a tendon.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,13 +53,14 @@ pub(super) struct FibreIn {
 }
 
 /// An elastic body in D dimensions, ready to be computed. A state of it is the places of its nodes (m), node
-/// after node, D numbers each.
+/// after node, D numbers each, and behind them the pressures (Pa) of cells that keep their volume.
 #[derive(Debug, Clone)]
 pub struct Solid<const D: usize> {
     pub(super) spec: SolidSpec<D>,
     pub(super) lame: Vec<Lame>,
     pub(super) points: CellPoints<D>,
     pub(super) mass: Mass<D>,
+    pub(super) pressures: Pressures,
     /// Fibres of each cell.
     pub(super) fibres_in: Vec<Vec<FibreIn>>,
     pub(super) pattern: Arc<Pattern>,
@@ -97,8 +99,11 @@ impl<const D: usize> Solid<D> {
             exists("node", *node, n_nodes)?;
         }
         let points = CellPoints::new(&spec.mesh, spec.frame)?;
-        let pattern = Pattern::new(&spec.mesh.cells, points.n_local, &held_components(&spec)?, D);
-        if pattern.n_unknowns() == 0 {
+        let pressures = pressures(&spec)?;
+        let cells =
+            Cells::<D> { nodes: &spec.mesh.cells, n_local: points.n_local, pressures: &pressures };
+        let pattern = Pattern::new(&cells, &held_components(&spec)?);
+        if pattern.n_places == 0 {
             return Err(SolidError::AllHeld);
         }
         let density = |cell: usize| material_of(&spec, cell).density;
@@ -109,6 +114,7 @@ impl<const D: usize> Solid<D> {
             fibres_in: fibres_in(&spec)?,
             points,
             mass,
+            pressures,
             pattern: Arc::new(pattern),
             cholesky: Arc::new(cholesky),
             spec,
@@ -126,7 +132,7 @@ impl<const D: usize> Solid<D> {
     /// code does so with cells of different sizes. For linear cells; derivatives by the shape are not those of it.
     #[must_use]
     pub fn with_equal_cells(mut self) -> Self {
-        if self.spec.mesh.order == super::mesh::Order::Quadratic {
+        if self.spec.mesh.order == Order::Quadratic {
             return self;
         }
         let mean = self.volume() / self.spec.mesh.n_cells() as f64;
@@ -148,8 +154,13 @@ impl<const D: usize> Solid<D> {
         poisson: f64,
     ) -> Result<(), SolidError> {
         exists("material", number, self.spec.materials.len())?;
-        let material = Material { young, poisson, ..self.spec.materials[number] };
+        let own = self.spec.materials[number];
+        let material = Material { young, poisson, ..own };
         material.check()?;
+        if material.is_incompressible() != own.is_incompressible() {
+            // It has other unknowns
+            return Err(MaterialError::Poisson(poisson).into());
+        }
         self.spec.materials[number] = material;
         self.lame[number] = material.lame();
         Ok(())
@@ -165,16 +176,38 @@ impl<const D: usize> Solid<D> {
         Ok(())
     }
 
-    /// Places of all nodes at rest.
+    /// The state at rest: places of all nodes, and no pressures.
     #[must_use]
     pub fn at_rest(&self) -> Vec<f64> {
-        self.spec.mesh.nodes.iter().flat_map(|x| x.iter().copied().collect::<Vec<_>>()).collect()
+        self.with_pressures(|node| self.spec.mesh.nodes[node])
     }
 
-    /// Number of components: D for each node.
+    /// A list of all components with values at the nodes; pressures are 0.
+    fn with_pressures(&self, value: impl Fn(usize) -> Point<D>) -> Vec<f64> {
+        let n_nodes = self.spec.mesh.nodes.len();
+        let mut all: Vec<f64> =
+            (0..n_nodes).flat_map(|node| value(node).iter().copied().collect::<Vec<_>>()).collect();
+        all.resize(self.n_components(), 0.0);
+        all
+    }
+
+    /// Number of components: D for each node, and the pressures.
     #[must_use]
     pub fn n_components(&self) -> usize {
+        self.n_places() + self.pressures.count()
+    }
+
+    /// Number of components that are places: D for each node.
+    #[must_use]
+    pub fn n_places(&self) -> usize {
         D * self.spec.mesh.nodes.len()
+    }
+
+    /// Nodes at which there are pressures, in the order of their components: vertices of cells that keep their
+    /// volume, once for each material.
+    #[must_use]
+    pub fn pressure_nodes(&self) -> &[usize] {
+        &self.pressures.nodes
     }
 
     /// The components that are held, ascending.
@@ -202,14 +235,7 @@ impl<const D: usize> Solid<D> {
     /// Forces (N) of an acceleration (m/s2) that is the same everywhere, as of gravity.
     #[must_use]
     pub fn weight(&self, acceleration: Point<D>) -> Vec<f64> {
-        let all: Vec<f64> = self
-            .spec
-            .mesh
-            .nodes
-            .iter()
-            .flat_map(|_| acceleration.iter().copied().collect::<Vec<_>>())
-            .collect();
-        self.mass.times(&all)
+        self.mass.times(&self.with_pressures(|_| acceleration))
     }
 
     /// Volume at rest (m3; per length in the plane).
@@ -255,6 +281,21 @@ impl<const D: usize> Solid<D> {
         }
         all
     }
+}
+
+/// The pressures of cells that keep their volume.
+fn pressures<const D: usize>(spec: &SolidSpec<D>) -> Result<Pressures, SolidError> {
+    let n_local = spec.mesh.n_local();
+    let cells = spec.mesh.cells.chunks_exact(n_local).enumerate().map(|(cell, nodes)| {
+        let number = spec.material_of.get(cell).copied().unwrap_or(0);
+        let is_kept = spec.materials[number].is_incompressible();
+        (is_kept.then_some(number), &nodes[..=D])
+    });
+    let pressures = Pressures::new(cells, D * spec.mesh.nodes.len());
+    if pressures.count() > 0 && spec.mesh.order == Order::Linear {
+        return Err(SolidError::LinearVolume);
+    }
+    Ok(pressures)
 }
 
 /// The material of a cell of a specification.

@@ -61,6 +61,16 @@ pub enum SolidError {
     /// A step that keeps the energy is asked for a body that loses it.
     #[error("a conservative step has no damping: use a backward difference, or a viscosity of 0")]
     Damped,
+    /// Cells with one strain each cannot keep their volume.
+    #[error(
+        "linear cells cannot bend where each keeps its volume: use quadratic ones, or a Poisson's ratio below 0.5"
+    )]
+    LinearVolume,
+    /// A step that keeps the energy is asked for a body that keeps its volume.
+    #[error(
+        "a conservative step has no pressures: use a backward difference, or a Poisson's ratio below 0.5"
+    )]
+    KeptVolume,
     /// The matrix of a linear solution is singular.
     #[error("the stiffness is singular: is the body held so that it cannot move as a rigid one?")]
     Singular,

@@ -10,8 +10,11 @@ use crate::material::Tensor;
 /// Nodes of a cell at most.
 pub(super) const MAX_NODES: usize = 10;
 
-/// Unknowns of a cell at most.
-pub(super) const MAX_UNKNOWNS: usize = 3 * MAX_NODES;
+/// Components of the places of a cell at most.
+pub(super) const MAX_PLACES: usize = 3 * MAX_NODES;
+
+/// Unknowns of a cell at most: its places, and pressures at its vertices.
+pub(super) const MAX_UNKNOWNS: usize = MAX_PLACES + 4;
 
 /// What is integrated at rest: a body is deformed, its cells at rest remain.
 #[derive(Debug, Clone)]
@@ -22,6 +25,8 @@ pub(super) struct CellPoints<const D: usize> {
     pub n_local: usize,
     /// Shape functions at the points of a cell, point after point.
     pub shapes: Vec<f64>,
+    /// Barycentric coordinates of the points of a cell.
+    pub shares: Vec<[f64; 4]>,
     /// Volume (m3, in the plane m2) of each point of each cell.
     pub weights: Vec<f64>,
     /// Gradients (1/m) of the shape functions, node after node for each point of each cell.
@@ -39,6 +44,8 @@ pub(super) struct At<'a, const D: usize> {
     pub gradients: &'a [Point<D>],
     /// Shape functions of the nodes.
     pub shapes: &'a [f64],
+    /// Its barycentric coordinates: shares of the vertices.
+    pub shares: &'a [f64],
     /// One over the distance from the axis; zero where there is none.
     pub curvature: f64,
 }
@@ -95,6 +102,7 @@ impl<const D: usize> CellPoints<D> {
             n_points: rule.len(),
             n_local,
             shapes: rule.iter().flat_map(|p| shapes::<D>(mesh.order, p.at)).collect(),
+            shares: rule.iter().map(|p| p.at).collect(),
             weights: Vec::new(),
             gradients: Vec::new(),
             radii: Vec::new(),
@@ -135,6 +143,7 @@ impl<const D: usize> CellPoints<D> {
             weight: self.weights[number],
             gradients: &self.gradients[number * local..(number + 1) * local],
             shapes: &self.shapes[point * local..(point + 1) * local],
+            shares: &self.shares[point][..=D],
             curvature: self.radii.get(number).map_or(0.0, |radius| 1.0 / radius),
         }
     }

@@ -68,6 +68,7 @@ impl<const D: usize> Mass<D> {
 
     /// Mass times a list of all components.
     pub(super) fn times(&self, all: &[f64]) -> Vec<f64> {
+        // Pressures have no mass
         let mut product = vec![0.0; all.len()];
         for node in 0..self.starts.len() - 1 {
             let mut sum = Point::<D>::zeros();

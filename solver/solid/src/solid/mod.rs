@@ -7,6 +7,7 @@ mod error;
 mod geometry;
 mod mass;
 mod mesh;
+mod mixed;
 mod modes;
 mod newton;
 mod pattern;

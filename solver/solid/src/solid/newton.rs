@@ -2,6 +2,7 @@
 
 use super::SolidError;
 use super::cholesky::Factor;
+use super::mixed::saddle;
 use super::potential::{Potential, Slope, norm};
 use crate::material::{Curvature, Principal};
 
@@ -40,7 +41,7 @@ pub struct Minimiser {
 /// A minimum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Minimum {
-    /// Places of all nodes (m).
+    /// The state: places of all nodes (m), and pressures (Pa).
     pub places: Vec<f64>,
     /// Iterations it took.
     pub iterations: usize,
@@ -92,6 +93,14 @@ impl Minimiser {
             None => Ok(()),
         };
         turned_over(start)?;
+        if solid.pattern.is_mixed() {
+            let found = saddle::find(potential, start, self.tolerance, self.max_iterations)?;
+            self.n_factors += found.n_factors;
+            self.n_iterations += found.iterations;
+            turned_over(&found.state)?;
+            let saddle::Saddle { state: places, iterations, residual, slope, .. } = found;
+            return Ok(Minimum { places, iterations, residual, slope });
+        }
         let mut at = potential.slope(&places).ok_or(SolidError::TurnedOver(0))?;
         let rounding = potential.rounding(start);
         let mut scale = at.scale;
@@ -111,7 +120,9 @@ impl Minimiser {
             }
             let Some(factor) = &self.factor else { return Err(SolidError::Singular) };
             let mut direction = right.clone();
-            solid.cholesky.solve(factor, &mut direction);
+            if !solid.cholesky.solve(&solid.pattern, factor, &mut direction) {
+                return Err(SolidError::Singular);
+            }
             let slope: f64 = right.iter().zip(&direction).map(|(a, b)| a * b).sum();
             let direction = solid.pattern.all(&direction);
             let promise = Promise { slope, noise: ROUNDINGS * rounding.value };

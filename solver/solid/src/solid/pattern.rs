@@ -1,5 +1,7 @@
 //! `Pattern`: where the entries of symmetric matrices of a solid are, and their values.
 
+use super::mixed::pressures::Pressures;
+
 /// Unknown of a component of a node that is held.
 const HELD: usize = usize::MAX;
 
@@ -21,54 +23,83 @@ pub struct Pattern {
     pub(super) rows: Vec<usize>,
     /// Places of the entries of each cell's matrix, its lower triangle row by row.
     scatter: Vec<u32>,
-    /// Components of the nodes of a cell.
-    n_local: usize,
+    /// Where those of each cell begin, and where those of the last end.
+    cell_starts: Vec<usize>,
+    /// Number of unknowns that are places; those behind are pressures.
+    pub(super) n_places: usize,
+}
+
+/// Cells and the components of their nodes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cells<'a, const D: usize> {
+    /// Nodes of all cells.
+    pub nodes: &'a [usize],
+    /// Nodes of a cell.
+    pub n_local: usize,
+    /// Their pressures.
+    pub pressures: &'a Pressures,
 }
 
 impl Pattern {
-    /// The pattern of cells of `n_local` nodes with `d` components each.
-    pub(super) fn new(cells: &[usize], n_local: usize, held: &[bool], d: usize) -> Self {
-        let n_nodes = held.len() / d;
-        let mut unknowns = vec![HELD; held.len()];
-        let components: Vec<usize> = (0..held.len()).filter(|c| !held[*c]).collect();
+    /// The pattern of cells; `held` says which components of places are held.
+    pub(super) fn new<const D: usize>(cells: &Cells<'_, D>, held: &[bool]) -> Self {
+        let Cells { nodes, n_local, pressures } = *cells;
+        let n_nodes = held.len() / D;
+        let n_components = held.len() + pressures.count();
+        let mut unknowns = vec![HELD; n_components];
+        let is_free = |c: &usize| held.get(*c) != Some(&true);
+        let components: Vec<usize> = (0..n_components).filter(is_free).collect();
         for (unknown, component) in components.iter().enumerate() {
             unknowns[*component] = unknown;
         }
         let mut neighbours = vec![Vec::new(); n_nodes];
-        for cell in cells.chunks_exact(n_local) {
+        let mut pressed = vec![Vec::new(); n_nodes];
+        for (number, cell) in nodes.chunks_exact(n_local).enumerate() {
             for a in cell {
                 neighbours[*a].extend_from_slice(cell);
+                pressed[*a].extend_from_slice(pressures.of(number));
             }
         }
-        for list in &mut neighbours {
+        for list in neighbours.iter_mut().chain(&mut pressed) {
             list.sort_unstable();
             list.dedup();
         }
         let (mut starts, mut rows) = (vec![0], Vec::new());
         for (column, component) in components.iter().enumerate() {
-            for node in &neighbours[component / d] {
-                let others = (node * d..(node + 1) * d).map(|other| unknowns[other]);
-                rows.extend(others.filter(|row| *row != HELD && *row >= column));
+            if *component < held.len() {
+                for node in &neighbours[component / D] {
+                    let others = (node * D..(node + 1) * D).map(|other| unknowns[other]);
+                    rows.extend(others.filter(|row| *row != HELD && *row >= column));
+                }
+                rows.extend(pressed[component / D].iter().map(|one| unknowns[*one]));
+            } else {
+                // Pressures do not know each other
+                rows.push(column);
             }
             starts.push(rows.len());
         }
+        let n_places = components.len() - pressures.count();
+        let (scatter, cell_starts) = (Vec::new(), vec![0]);
         let mut pattern = Self {
-            n_components: held.len(),
+            n_components,
             components,
             unknowns,
             starts,
             rows,
-            scatter: Vec::new(),
-            n_local: n_local * d,
+            scatter,
+            cell_starts,
+            n_places,
         };
-        for cell in cells.chunks_exact(n_local) {
-            let local: Vec<usize> = cell.iter().flat_map(|node| node * d..(node + 1) * d).collect();
+        for (number, cell) in nodes.chunks_exact(n_local).enumerate() {
+            let places = cell.iter().flat_map(|node| node * D..(node + 1) * D);
+            let local: Vec<usize> = places.chain(pressures.of(number).iter().copied()).collect();
             for p in 0..local.len() {
                 for q in 0..=p {
                     let place = pattern.place(local[p], local[q]);
                     pattern.scatter.push(place);
                 }
             }
+            pattern.cell_starts.push(pattern.scatter.len());
         }
         pattern
     }
@@ -105,16 +136,21 @@ impl Pattern {
         values: &mut [f64],
         matrix: impl Fn(usize, usize) -> f64,
     ) {
-        let n = self.n_local;
-        let places = &self.scatter[cell * n * (n + 1) / 2..(cell + 1) * n * (n + 1) / 2];
-        let mut places = places.iter();
-        for p in 0..n {
+        let mut places = self.scatter[self.cell_starts[cell]..self.cell_starts[cell + 1]].iter();
+        for p in 0.. {
             for q in 0..=p {
-                if let Some(place) = places.next().filter(|place| **place != NOWHERE) {
+                let Some(place) = places.next() else { return };
+                if *place != NOWHERE {
                     values[*place as usize] += matrix(p, q);
                 }
             }
         }
+    }
+
+    /// Whether there are pressures.
+    #[must_use]
+    pub fn is_mixed(&self) -> bool {
+        self.n_places < self.n_unknowns()
     }
 
     /// Adds a number to the entry of two components, where both are free.

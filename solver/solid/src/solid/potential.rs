@@ -26,7 +26,8 @@ pub struct Way {
     pub points: Vec<[f64; 2]>,
 }
 
-/// Elastic energy, less the work of loads, and with inertia.
+/// Elastic energy, less the work of loads, and with inertia; less pressures times changes of the volume where it is
+/// kept, so that the sought state is a saddle.
 #[derive(Debug, Clone)]
 pub struct Potential<'a, const D: usize> {
     /// The body.
@@ -100,7 +101,8 @@ impl<'a, const D: usize> Potential<'a, D> {
             )?;
             value += stage.weight / stage.share * energy;
         }
-        let free = |all: &[f64]| norm(&self.solid.pattern.free(all));
+        let pattern = &self.solid.pattern;
+        let free = |all: &[f64]| norm(&pattern.free(all)[..pattern.n_places]);
         let mut scale = free(&slope).max(free(self.loads));
         for (entry, (load, place)) in slope.iter_mut().zip(self.loads.iter().zip(places)) {
             *entry -= load;
@@ -157,18 +159,25 @@ impl<'a, const D: usize> Potential<'a, D> {
         let solid = self.solid;
         let mut forces = vec![0.0; places.len()];
         let mut energy = 0.0;
+        let mut volumes = vec![0.0; solid.pressures.count()];
         let mut local = [Point::<D>::zeros(); MAX_NODES];
         for cell in 0..solid.spec.mesh.n_cells() {
             let lame = solid.lame[solid.material_of(cell)];
             let fibres = &solid.fibres_in[cell];
             let stiffness: f64 = fibres.iter().map(|f| solid.spec.fibres[f.set].stiffness).sum();
-            let modulus = 2.0 * lame.shear + lame.volume.abs() + stiffness;
+            let pressures = solid.pressures.of(cell).iter().map(|one| places[*one].abs());
+            let pressure = pressures.fold(0.0, f64::max);
+            let modulus = 2.0 * lame.shear + lame.volume.abs() + stiffness + pressure;
             let local = solid.gather(cell, places, &mut local);
             for k in 0..solid.points.n_points {
                 let at = solid.points.at(cell, k);
                 let pairs = local.iter().zip(at.gradients);
                 let lost: f64 = pairs.map(|(place, slope)| place.norm() * slope.norm()).sum();
                 energy += modulus * at.weight;
+                for (pressure, share) in solid.pressures.of(cell).iter().zip(at.shares) {
+                    volumes[*pressure - solid.pressures.first] +=
+                        (1.0 + lost) * at.weight * share.abs();
+                }
                 for (node, slope) in solid.nodes_of(cell).iter().zip(at.gradients) {
                     forces[D * node] += modulus * (1.0 + lost) * at.weight * slope.norm();
                 }
@@ -183,15 +192,21 @@ impl<'a, const D: usize> Potential<'a, D> {
             energy += inertia.factor * momentum.iter().zip(apart).map(|(p, x)| p * x).sum::<f64>();
         }
         energy += self.loads.iter().zip(places).map(|(load, x)| (load * x).abs()).sum::<f64>();
-        Rounding { value: f64::EPSILON * energy, slope: f64::EPSILON * slope }
+        Rounding {
+            value: f64::EPSILON * energy,
+            slope: f64::EPSILON * slope,
+            volume: f64::EPSILON * norm(&volumes),
+        }
     }
 }
 
-/// What rounding may leave of a potential (J) and of the norm of its slope (N).
+/// What rounding may leave of a potential (J), of the norm of its slope (N), and of that of the volumes that are
+/// kept (m3).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rounding {
     pub value: f64,
     pub slope: f64,
+    pub volume: f64,
 }
 
 /// A state whose inner forces count.

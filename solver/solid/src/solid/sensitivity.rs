@@ -6,7 +6,7 @@ use super::SolidError;
 use super::assemble::{Controls, Response, StrainLevel};
 use super::build::Solid;
 use super::cholesky::Factor;
-use super::geometry::{At, MAX_NODES, MAX_UNKNOWNS};
+use super::geometry::{At, MAX_NODES, MAX_PLACES};
 use super::mesh::Order;
 use super::potential::Potential;
 use crate::material::{Curvature, Fibre, Lame, Principal, Tensor};
@@ -81,7 +81,9 @@ impl<const D: usize> Solid<D> {
         }
         let new = self.cholesky.factorise(&self.pattern, &values).ok_or(SolidError::Singular)?;
         let mut solution = right.clone();
-        self.cholesky.solve(&new, &mut solution);
+        if !self.cholesky.solve(&self.pattern, &new, &mut solution) {
+            return Err(SolidError::Singular);
+        }
         *factor = Some(new);
         Ok(self.pattern.all(&solution))
     }
@@ -123,9 +125,15 @@ impl<const D: usize> Solid<D> {
                 found.targets[set] += at.weight * fibre.stress_by_target(deformation).dot(&rate);
             }
             if levels.is_some() {
-                let moved = moved_stress(&response, &rate);
+                let mut moved = moved_stress(&response, &rate);
+                let mut kept = 0.0;
+                if let Some(pressure) = self.pressures.at(cell, at.shares, z) {
+                    moved -= response.principal().cofactor() * pressure;
+                    kept = pressure * (1.0 - response.principal().volume());
+                }
                 self.add(cell, &at, &moved, &mut found.places);
                 let mut stress = shape_stress(&response, &rate, &moved);
+                stress += Tensor::identity() * kept;
                 if let Some(viscous) = response.viscous() {
                     let strain = symmetric(&(response.deformation().transpose() * rate));
                     for (factor, deformations) in &before {
@@ -174,7 +182,7 @@ impl<const D: usize> Solid<D> {
                     found.value += at.weight * one.energy(&deformation);
                     found.by_targets[fibre.set] -= at.weight * stiffness * longer;
                     found.by_stiffness[fibre.set] += 0.5 * at.weight * longer * longer;
-                    let mut forces = [0.0; MAX_UNKNOWNS];
+                    let mut forces = [0.0; MAX_PLACES];
                     at.add_forces(&one.stress(&deformation), &mut forces);
                     for (a, node) in self.nodes_of(cell).iter().enumerate() {
                         for i in 0..D {
@@ -258,7 +266,7 @@ impl<const D: usize> Solid<D> {
 
     /// Adds the forces of a stress at a point to those of all nodes.
     fn add(&self, cell: usize, at: &At<'_, D>, stress: &Tensor, forces: &mut [f64]) {
-        let mut local = [0.0; MAX_UNKNOWNS];
+        let mut local = [0.0; MAX_PLACES];
         at.add_forces(stress, &mut local);
         for (a, node) in self.nodes_of(cell).iter().enumerate() {
             for i in 0..D {

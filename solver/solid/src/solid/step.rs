@@ -126,6 +126,9 @@ impl<const D: usize> Solid<D> {
             if self.is_damped() {
                 return Err(SolidError::Damped);
             }
+            if self.pattern.is_mixed() {
+                return Err(SolidError::KeptVolume);
+            }
             let rule = GaussRule::new(WAY_POINTS);
             let points = rule.points.iter().zip(&rule.weights).map(|(s, w)| [*s, *w]).collect();
             potential.way = Some(Way { from: places.clone(), points });
@@ -149,7 +152,7 @@ impl<const D: usize> Solid<D> {
         Ok(potential)
     }
 
-    /// Velocities (m/s) at the end of a step that reaches these places.
+    /// Velocities (m/s) at the end of a step that reaches these places; those of pressures are 0.
     #[must_use]
     pub fn velocities_after(
         &self,
@@ -165,7 +168,10 @@ impl<const D: usize> Solid<D> {
         let difference = Difference::new(scheme, step, motion.before.is_some());
         let before = motion.before.as_ref().map(|b| &b.places[..]);
         let history = difference.history(&motion.places, before);
-        places.iter().zip(&history).map(|(x, h)| difference.factors[0] * x + h).collect()
+        let mut velocities: Vec<f64> =
+            places.iter().zip(&history).map(|(x, h)| difference.factors[0] * x + h).collect();
+        velocities[self.n_places()..].fill(0.0);
+        velocities
     }
 
     /// One step of a motion. Held components go where `held` says, a list of all components; they stay where

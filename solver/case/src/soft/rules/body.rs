@@ -3,7 +3,8 @@
 use super::mistakes::Mistakes;
 use crate::Geometry;
 use crate::soft::solid::{
-    FibreSpec, GridSpec, HoldSpec, MaterialSpec, OutlineSpec, Region, SoftSolid, Stretch,
+    FibreSpec, GridSpec, HoldSpec, MaterialSpec, OutlineSpec, Region, SoftSolid, SolidOrder,
+    Stretch,
 };
 
 /// Most cells of a grid.
@@ -16,10 +17,11 @@ pub fn check(mistakes: &mut Mistakes<'_>) {
         return mistakes.add("solid", message, "write one [[solid]]: a soft case has one body");
     };
     shape(mistakes, solid);
-    material(mistakes, "solid.0.material", &solid.material);
+    material(mistakes, "solid.0.material", solid.order, &solid.material);
     for (n, part) in solid.part.iter().enumerate() {
         region(mistakes, &format!("solid.0.part.{n}.region"), &part.region);
-        material(mistakes, &format!("solid.0.part.{n}.material"), &part.material);
+        let key = format!("solid.0.part.{n}.material");
+        material(mistakes, &key, solid.order, &part.material);
     }
     for (n, one) in solid.fibre.iter().enumerate() {
         fibre(mistakes, &format!("solid.0.fibre.{n}"), one);
@@ -123,13 +125,18 @@ fn check_grid(mistakes: &mut Mistakes<'_>, grid: &GridSpec) {
     }
 }
 
-fn material(mistakes: &mut Mistakes<'_>, key: &str, material: &MaterialSpec) {
+fn material(mistakes: &mut Mistakes<'_>, key: &str, order: SolidOrder, material: &MaterialSpec) {
     mistakes.positive(&format!("{key}.young"), material.young);
     mistakes.positive(&format!("{key}.density"), material.density);
     mistakes.not_negative(&format!("{key}.viscosity"), material.viscosity);
-    if !(material.poisson > -1.0 && material.poisson < 0.5) {
+    if !(material.poisson > -1.0 && material.poisson <= 0.5) {
         let message = format!("`{key}.poisson` is {}", material.poisson);
-        mistakes.add(&format!("{key}.poisson"), message, "write a number above -1 and below 0.5");
+        let help = "write a number above -1, 0.5 at most: 0.5 keeps the volume";
+        mistakes.add(&format!("{key}.poisson"), message, help);
+    } else if material.is_incompressible() && order == SolidOrder::Linear {
+        let message = format!("`{key}.poisson` is {}, and cells are linear", material.poisson);
+        let help = "write order = \"quadratic\": linear cells that keep their volumes cannot bend; or a smaller ratio";
+        mistakes.add(&format!("{key}.poisson"), message, help);
     }
 }
 

@@ -34,9 +34,9 @@ pub fn check(mistakes: &mut Mistakes<'_>) {
         parameters(mistakes, "optimisation", &optimisation.parameter);
         settings(mistakes, "optimisation", &optimisation.search);
     }
-    for key in case.robot.iter().flat_map(|robot| robot.set.keys()) {
+    for (key, value) in case.robot.iter().flat_map(|robot| &robot.set) {
         match ParameterKey::find(&case, key) {
-            Ok(found) if found.len() == 1 => {}
+            Ok(found) if found.len() == 1 => keeps_kind(mistakes, found[0], *value),
             Ok(_) => {
                 let message = format!("`{key}` is a list");
                 mistakes.add("robot.set", message, "give the key of one number in it");
@@ -147,13 +147,27 @@ fn limits(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter, key: Par
             Some("write a lower bound above 0: this number cannot be 0 or below")
         }
         ParameterKey::Poisson(_) if lower <= -1.0 || upper >= 0.5 => {
-            Some("Poisson's ratio is above -1 and below 0.5: write bounds between them")
+            Some("Poisson's ratio is sought above -1 and below 0.5: write bounds between them")
         }
+        ParameterKey::Poisson(_) if key.read(mistakes.case()) == Some(0.5) => Some(
+            "where the case has 0.5 the volume is kept: write a smaller ratio, or seek another number",
+        ),
         _ => None,
     };
     if let Some(help) = wrong {
         let message = format!("the bounds of \"{}\" are {lower} and {upper}", parameter.name);
         mistakes.add(&format!("{at}.bounds"), message, help);
+    }
+}
+
+/// A ratio of the robot may be 0.5 where that of the model is, and nowhere else: the one has pressures.
+fn keeps_kind(mistakes: &mut Mistakes<'_>, key: ParameterKey, value: f64) {
+    let own = key.read(mistakes.case());
+    if matches!(key, ParameterKey::Poisson(_)) && (own == Some(0.5)) != (value == 0.5) {
+        let message =
+            format!("the robot has a Poisson's ratio of {value}, where the model has another kind");
+        let help = "write 0.5, which keeps the volume, for both or for none";
+        mistakes.add("robot.set", message, help);
     }
 }
 

@@ -1,0 +1,211 @@
+//! Newton's method for places and pressures together: the saddle of a potential where volumes are kept.
+
+use crate::material::{Curvature, Principal};
+use crate::solid::SolidError;
+use crate::solid::potential::{Potential, Rounding, Slope, norm};
+
+/// Part of the decrease the slope promises that a step has to reach (Armijo's rule).
+const ARMIJO: f64 = 1e-4;
+
+/// Halvings of a step at most.
+const N_HALVINGS: usize = 30;
+
+/// Times the rounding of the potential within which a decrease cannot be seen.
+const ROUNDINGS: f64 = 16.0;
+
+/// Times the rounding of forces and volumes that counts as balance.
+const BALANCED: f64 = 2.0;
+
+/// What a change of the volume costs in the search along a direction, of the shear modulus: little, so that steps
+/// may leave the curved manifold of kept volumes and come back.
+const PENALTY: f64 = 10.0;
+
+/// A saddle.
+#[derive(Debug, Clone)]
+pub(in crate::solid) struct Saddle {
+    /// Places and pressures.
+    pub state: Vec<f64>,
+    /// Iterations it took.
+    pub iterations: usize,
+    /// Factorisations it took.
+    pub n_factors: usize,
+    /// Norm of the forces left (N).
+    pub residual: f64,
+    /// Slope of the potential by all components.
+    pub slope: Vec<f64>,
+}
+
+/// A state with its slope.
+struct At {
+    state: Vec<f64>,
+    found: Slope,
+}
+
+/// What a search is measured by.
+struct Measure<'a, const D: usize> {
+    potential: &'a Potential<'a, D>,
+    /// Volumes (m3) that belong to the pressures.
+    volumes: Vec<f64>,
+    /// The penalty (Pa).
+    penalty: f64,
+    rounding: Rounding,
+}
+
+/// A way to go from a state.
+struct Direction {
+    /// By all components, to be subtracted.
+    all: Vec<f64>,
+    /// The second derivative along it, of places only (J).
+    curvature: f64,
+}
+
+/// The saddle near a state, whose held components stay, to a residual of the forces that balance, and of the volumes.
+pub(in crate::solid) fn find<const D: usize>(
+    potential: &Potential<'_, D>,
+    start: &[f64],
+    tolerance: f64,
+    max_iterations: usize,
+) -> Result<Saddle, SolidError> {
+    let mut measure = Measure::new(potential, start);
+    let slope = |state: &[f64]| potential.slope(state).ok_or(SolidError::TurnedOver(0));
+    let mut at = At { found: slope(start)?, state: start.to_vec() };
+    let (mut scale, mut n_factors) = (at.found.scale, 0);
+    let volume = norm(&measure.volumes);
+    for iterations in 0..max_iterations {
+        let residual = measure.forces(&at.found);
+        scale = scale.max(at.found.scale);
+        let has_forces = residual <= (tolerance * scale).max(BALANCED * measure.rounding.slope);
+        let kept = measure.excess(&at.found);
+        if has_forces && kept <= (tolerance * volume).max(BALANCED * measure.rounding.volume) {
+            let slope = at.found.slope;
+            return Ok(Saddle { state: at.state, iterations, n_factors, residual, slope });
+        }
+        let mut next = None;
+        for curvature in [Curvature::True, Curvature::Positive] {
+            n_factors += 1;
+            let Some(direction) = direction(potential, &at, curvature) else { continue };
+            next = measure.search(&at, &direction, scale);
+            if next.is_some() {
+                break;
+            }
+        }
+        at = next.ok_or(SolidError::NotConverged { iterations, residual, scale })?;
+    }
+    let residual = measure.forces(&at.found);
+    Err(SolidError::NotConverged { iterations: max_iterations, residual, scale })
+}
+
+/// Newton's direction; none where it cannot be found.
+fn direction<const D: usize>(
+    potential: &Potential<'_, D>,
+    at: &At,
+    curvature: Curvature,
+) -> Option<Direction> {
+    let solid = potential.solid;
+    let known: &[Principal] = &at.found.known;
+    let values = potential.curvature(&at.state, curvature, known)?;
+    let factor = solid.cholesky.factorise(&solid.pattern, &values)?;
+    let right = solid.pattern.free(&at.found.slope);
+    let mut free = right.clone();
+    let is_solved = solid.cholesky.solve(&solid.pattern, &factor, &mut free);
+    let n = solid.pattern.n_places;
+    let product = |of: std::ops::Range<usize>| -> f64 {
+        right[of.clone()].iter().zip(&free[of]).map(|(a, b)| a * b).sum()
+    };
+    // K x + B q = r and B^T x = g: x . K x = x . r - q . g
+    let curvature = product(0..n) - product(n..right.len());
+    is_solved.then(|| Direction { all: solid.pattern.all(&free), curvature })
+}
+
+impl<'a, const D: usize> Measure<'a, D> {
+    fn new(potential: &'a Potential<'a, D>, start: &[f64]) -> Self {
+        let solid = potential.solid;
+        let mut volumes = vec![0.0; solid.pressures.count()];
+        let (mut stiffness, mut whole) = (0.0, 0.0);
+        for cell in 0..solid.spec.mesh.n_cells() {
+            for k in 0..solid.points.n_points {
+                let at = solid.points.at(cell, k);
+                for (pressure, share) in solid.pressures.of(cell).iter().zip(at.shares) {
+                    volumes[pressure - solid.pressures.first] += at.weight * share;
+                }
+                stiffness += at.weight * solid.lame[solid.material_of(cell)].shear;
+                whole += at.weight;
+            }
+        }
+        let penalty = PENALTY * stiffness / whole;
+        Self { potential, volumes, penalty, rounding: potential.rounding(start) }
+    }
+
+    /// Norm of the forces (N) on what is free.
+    fn forces(&self, found: &Slope) -> f64 {
+        let pattern = &self.potential.solid.pattern;
+        norm(&pattern.free(&found.slope)[..pattern.n_places])
+    }
+
+    /// Changes of the volumes (m3) at the pressures.
+    fn excesses<'b>(&self, found: &'b Slope) -> &'b [f64] {
+        &found.slope[self.potential.solid.pressures.first..]
+    }
+
+    /// Their norm.
+    fn excess(&self, found: &Slope) -> f64 {
+        norm(self.excesses(found))
+    }
+
+    /// Sum of squared changes of the volume over the volumes (m3).
+    fn squares(&self, found: &Slope) -> f64 {
+        let pairs = self.excesses(found).iter().zip(&self.volumes);
+        pairs.map(|(excess, volume)| excess * excess / volume).sum()
+    }
+
+    /// How far a state is from the saddle: parts of the forces and of the volumes.
+    fn distance(&self, found: &Slope, scale: f64) -> f64 {
+        self.forces(found) / scale.max(f64::MIN_POSITIVE) + self.excess(found) / norm(&self.volumes)
+    }
+
+    /// Goes against a direction as far as the potential with the pressures at its end, and a penalty on changes of
+    /// the volume, decreases as its slope promises; none where it does not (the augmented Lagrangian of @nocedal2006).
+    fn search(&mut self, at: &At, direction: &Direction, scale: f64) -> Option<At> {
+        let first = self.potential.solid.pressures.first;
+        let squares = self.squares(&at.found);
+        if direction.curvature < 0.0 {
+            // Enough of a penalty makes it lead downwards, unless the volumes are kept
+            let needed = -2.0 * direction.curvature / squares;
+            if needed.is_finite() && needed < 1e3 * self.penalty {
+                self.penalty = self.penalty.max(needed);
+            } else {
+                return None;
+            }
+        }
+        let promise = direction.curvature + self.penalty * squares;
+        let merit = |found: &Slope| found.value + 0.5 * self.penalty * self.squares(found);
+        let pairs = self.excesses(&at.found).iter().zip(&direction.all[first..]);
+        let before = merit(&at.found) - pairs.map(|(excess, moved)| excess * moved).sum::<f64>();
+        let distance = self.distance(&at.found, scale);
+        let noise = ROUNDINGS * self.rounding.value;
+        let mut length = 1.0;
+        for _ in 0..N_HALVINGS {
+            let moved = |share: f64| -> Vec<f64> {
+                let pairs = at.state.iter().zip(&direction.all).enumerate();
+                pairs
+                    .map(|(k, (x, d))| x - if k < first { length * d } else { share * d })
+                    .collect()
+            };
+            let trial = moved(1.0);
+            if let Some(found) = self.potential.slope(&trial) {
+                let after = merit(&found);
+                let is_lower = after < before && after <= before - ARMIJO * length * promise;
+                let is_nearer = after <= before + noise && self.distance(&found, scale) < distance;
+                if is_lower || is_nearer {
+                    if length == 1.0 {
+                        return Some(At { state: trial, found });
+                    }
+                    let state = moved(length);
+                    return self.potential.slope(&state).map(|found| At { state, found });
+                }
+            }
+            length *= 0.5;
+        }
+        None
+    }
+}
