@@ -17,6 +17,7 @@ pub(crate) mod mesh;
 pub mod number;
 pub(crate) mod optimisation;
 pub(crate) mod output;
+pub(crate) mod profile;
 pub(crate) mod reduced;
 pub(crate) mod time;
 mod time_function;
