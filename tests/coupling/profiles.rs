@@ -44,7 +44,7 @@ fn what_flows_in_is_that_of_the_rows_to_second_order() {
     for (geometry, velocity, flux, below) in
         [("planar", parabola, 1.0, 1.0), ("axisymmetric", paraboloid, PI, 1.0 / 3.0)]
     {
-        let off = [5, 10, 20].map(|n| {
+        let off = [5, 10].map(|n| {
             let outcome = run(&channel(geometry, &rows(n, [0.0, 1.0], velocity)));
             let [inflow, outflow] =
                 ["left", "right"].map(|side| last(&outcome, &format!("{side}.flux")));
@@ -52,7 +52,7 @@ fn what_flows_in_is_that_of_the_rows_to_second_order() {
             inflow / flux - 1.0
         });
         // Straight lines between places are below the curve by h^2 / 12 of its second derivative in the mean
-        for (error, n) in off.iter().zip([5.0_f64, 10.0, 20.0]) {
+        for (error, n) in off.iter().zip([5.0_f64, 10.0]) {
             assert!((error * n * n / below + 1.0).abs() < 0.1, "{geometry}: {off:?}");
         }
         let plain = run(&channel(geometry, &rows(200, [0.0, 1.0], velocity)));
