@@ -163,7 +163,7 @@ fn at_rest<const D: usize>(
     let moving_mesh = moving_mesh.transpose()?;
     check()?;
     let system = timing.measure(Stage::Assembly, || {
-        fluid_system(&problem, &state, moving_mesh.as_ref(), scheme.unknown_frame)
+        fluid_system(&problem, &state, moving_mesh.as_ref(), scheme.unknown_frame, check)
     })?;
     tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
     let law = contact_law(model)?;

@@ -1,5 +1,6 @@
 //! `Simulation`: problem, state and workspace; a step of a given size, on a new mesh where needed.
 
+use alewife_interrupt::Stopped;
 use alewife_mesh::{CellId, NodeId};
 use rayon::prelude::*;
 
@@ -9,7 +10,7 @@ use super::step_control::StepControl;
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
 use crate::coupling::{
-    BodiesAt, BodyLoads, BodyShapes, FluidSystem, MeshedBodies, Problem, ResidualAt, ShapeError,
+    BodiesAt, BodyLoads, BodyShapes, FluidSystem, MeshedBodies, Problem, ResidualAt, RestPlaces,
     SolverChoice, SurfaceLoads,
 };
 use crate::motion::{MovingMesh, replace_mesh};
@@ -78,25 +79,31 @@ pub enum Attempt {
     Rejected(StepError),
 }
 
-/// The linear system of a state on its mesh, with what moves that.
+/// The linear system of a state on its mesh, with what moves that; `look` is called between its parts.
 ///
 /// # Errors
-/// When coordinates of a body give it no shape.
+/// When coordinates of a body give it no shape, and those of `look`.
 pub(super) fn fluid_system<const D: usize>(
     problem: &Problem<D>,
     state: &State<D>,
     moving: Option<&MovingMesh<D>>,
     unknown_frame: bool,
-) -> Result<FluidSystem<D>, ShapeError> {
+    look: impl Fn() -> Result<(), Stopped>,
+) -> Result<FluidSystem<D>, RunError> {
     let poses = &state.in_mesh(&state.poses);
+    let choice = SolverChoice::default();
     let Some(moving) = moving.filter(|_| problem.n_coordinates() > 0) else {
-        return Ok(FluidSystem::new(problem, &state.mesh, poses, unknown_frame));
+        // Which unknowns are constrained does not depend on how bodies deform
+        let shapes = &BodyShapes::rigid(problem.bodies.len());
+        let bodies =
+            MeshedBodies { at: BodiesAt { poses, shapes }, rest_places: RestPlaces::new() };
+        let mesh = &state.mesh;
+        return Ok(FluidSystem::with_bodies(problem, mesh, bodies, unknown_frame, choice, look)?);
     };
     let shapes = &BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
     let rest_places = moving.rest_places(shapes);
     let bodies = MeshedBodies { at: BodiesAt { poses, shapes }, rest_places };
-    let choice = SolverChoice::default();
-    Ok(FluidSystem::with_bodies(problem, &state.mesh, bodies, unknown_frame, choice))
+    Ok(FluidSystem::with_bodies(problem, &state.mesh, bodies, unknown_frame, choice, look)?)
 }
 
 /// Scalars after a step, and the differences it was made by.
@@ -250,7 +257,8 @@ impl<const D: usize> Simulation<D> {
         }
         work.mesh = state.mesh.clone();
         work.system = work.timing.measure(Stage::Assembly, || {
-            fluid_system(problem, state, Some(moving), scheme.unknown_frame)
+            // A state on a new mesh with the solver of the old one would not be one
+            fluid_system(problem, state, Some(moving), scheme.unknown_frame, || Ok(()))
         })?;
         self.is_fresh = true;
         Ok(())
