@@ -5,6 +5,7 @@ use alewife_mesh::{CellId, NodeId};
 use rayon::prelude::*;
 
 use super::build::{Scalars, Tracers};
+use super::cell_bound::{AtHand, CellBound, nearest_gap};
 use super::error::RunError;
 use super::step_control::StepControl;
 use crate::case::{Convection, Scheme};
@@ -13,7 +14,7 @@ use crate::coupling::{
     BodiesAt, BodyLoads, BodyShapes, FluidSystem, MeshedBodies, Problem, ResidualAt, RestPlaces,
     SolverChoice, SurfaceLoads,
 };
-use crate::motion::{MovingMesh, replace_mesh};
+use crate::motion::{MovingMesh, RemeshError, replace_mesh};
 use crate::scalar::Level;
 use crate::state::{NewLevel, State};
 use crate::step::{
@@ -41,6 +42,8 @@ pub struct Simulation<const D: usize> {
     pub law: Option<Law>,
     /// How steps are made.
     pub scheme: StepScheme,
+    /// What new meshes are measured by.
+    pub cell_bound: CellBound,
     /// Whether no step has been made on this mesh.
     pub is_fresh: bool,
     /// What the flow carries, if anything.
@@ -243,14 +246,30 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn remesh(&mut self, reason: &str) -> Result<(), RunError> {
-        let Self { problem, state, work, moving_mesh: Some(moving), scheme, .. } = self else {
+        let Self {
+            problem, state, work, moving_mesh: Some(moving), scheme, law, cell_bound, ..
+        } = self
+        else {
             return Ok(());
         };
         let (step, time) = (state.step, state.time);
-        *moving = work
-            .timing
-            .measure(Stage::Mesh, || replace_mesh(problem, state, moving))
-            .map_err(|reason| RunError::Remesh { step, time, reason: Box::new(reason) })?;
+        let n_cells = state.mesh.n_cells();
+        let at_hand = AtHand { n_cells, is_iterative: work.system.is_iterative() };
+        let allowed = cell_bound.allowed::<D>(at_hand);
+        let most = allowed.cells();
+        let made = work.timing.measure(Stage::Mesh, || replace_mesh(problem, state, moving, most));
+        *moving = made.map_err(|error| match error {
+            RemeshError::TooManyCells { n_cells, .. } => RunError::MeshTooLarge {
+                step,
+                time,
+                n_cells,
+                allowed,
+                reason: reason.to_owned(),
+                nearest: nearest_gap(state, moving),
+                closes: law.is_none(),
+            },
+            error => RunError::Remesh { step, time, reason: Box::new(error) },
+        })?;
         tracing::info!(step, time, cells = state.mesh.n_cells(), reason, "remeshed");
         if let Some(scalars) = &mut self.scalars {
             scalars.forget_mesh();
