@@ -34,14 +34,15 @@ pub fn check(mistakes: &mut Mistakes<'_>) {
         parameters(mistakes, "optimisation", &optimisation.parameter);
         settings(mistakes, "optimisation", &optimisation.search);
     }
+    let at = |key: &str| format!("robot.set.{key}");
     for key in case.robot.iter().flat_map(|robot| robot.set.keys()) {
         match ParameterKey::find(&case, key) {
             Ok(found) if found.len() == 1 => {}
             Ok(_) => {
                 let message = format!("`{key}` is a list");
-                mistakes.add("robot.set", message, "give the key of one number in it");
+                mistakes.add(&at(key), message, "give the key of one number in it");
             }
-            Err(error) => mistakes.add("robot.set", error.message, &error.help),
+            Err(error) => mistakes.add(&at(key), error.message, &error.help),
         }
     }
     references(mistakes);
