@@ -50,6 +50,7 @@ impl CalibrateError {
                         "give a CSV file with a header, by its path from the file in which it is written"
                     }
                     "time" | "columns" => "name a column of numbers, as the header has it",
+                    "frame" => "give both columns, NAME.x and NAME.y, or leave `frame` out",
                     _ => "see the page on calibration",
                 };
                 (format!("calibration.from.{number}.{key}"), what.clone(), help.to_owned())
