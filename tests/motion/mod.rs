@@ -1,5 +1,6 @@
 //! The mesh follows the bodies: elliptic motion, remeshing, transfer, projection.
 
+mod growing;
 mod momentum;
 mod moving;
 mod projection;

@@ -4,7 +4,7 @@ use alewife_core::body::{Orientation, Pose};
 use alewife_core::case::Model;
 use alewife_core::contact::Gaps;
 use alewife_core::coupling::BodyShapes;
-use alewife_core::motion::{Meshed, MovingMesh, PosesByShift, RemeshError, Scene};
+use alewife_core::motion::{Meshed, MostCells, MovingMesh, PosesByShift, RemeshError, Scene};
 use alewife_core::run::{Attempt, Simulation, build_mesh, motion_settings, simulation_on};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -95,11 +95,12 @@ impl Scene<3> for Mirrored {
         poses: &[Pose],
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
+        most: MostCells,
     ) -> Result<Meshed<3>, RemeshError> {
         let shown = images(poses);
         let Meshed { mesh, scene: image, .. } =
-            self.image.remesh(&shown, shapes, &|_| shown.clone())?;
-        let own = self.own.remesh(poses, shapes, shifted)?;
+            self.image.remesh(&shown, shapes, &|_| shown.clone(), most)?;
+        let own = self.own.remesh(poses, shapes, shifted, most)?;
         let scene = Box::new(Self { own: own.scene, image });
         Ok(Meshed { mesh: mirror_image(&mesh, AXIS), scene, ..own })
     }
@@ -117,7 +118,8 @@ fn scene(model: &Model) -> Meshed<3> {
     let moving = moving_mesh.expect("its bodies move");
     let poses = state.poses.clone();
     let shapes = BodyShapes::rigid(poses.len());
-    moving.scene().remesh(&poses, &shapes, &|_| poses.clone()).expect("it is meshed again")
+    let most = MostCells(f64::INFINITY);
+    moving.scene().remesh(&poses, &shapes, &|_| poses.clone(), most).expect("it is meshed again")
 }
 
 fn in_mirror(model: &Model, shown: Meshed<3>) -> Simulation<3> {

@@ -20,7 +20,7 @@ use alewife_core::case::{Convection, Scheme};
 use alewife_core::coupling::{Problem, RigidBody, Side};
 use alewife_core::motion::{MotionKind, Transfer};
 use alewife_core::motion::{MotionSettings, MovingMesh};
-use alewife_core::run::{Attempt, Simulation, StepControl, StepScheme};
+use alewife_core::run::{Attempt, CellBound, Simulation, StepControl, StepScheme};
 use alewife_core::space::{CellValues, Metric, Tables};
 use alewife_core::state::{InitialLevels, State};
 use alewife_core::step::MeshPath;
@@ -149,6 +149,7 @@ fn in_uniform_flow(velocity: &Vector3<f64>, convection: Convection) -> Simulatio
         moving_mesh,
         law: None,
         scheme,
+        cell_bound: CellBound::none(),
         is_fresh: true,
         tracers: None,
         scalars: None,

@@ -3,7 +3,7 @@
 use alewife_core::body::{Modes, Pose, on_mesh};
 use alewife_core::contact::{ContactPair, Gaps, MinimumGap, Partner};
 use alewife_core::coupling::BodyShapes;
-use alewife_core::motion::{Meshed, PosesByShift, RemeshError, Scene};
+use alewife_core::motion::{Meshed, MostCells, PosesByShift, RemeshError, Scene};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 use tests::three_tetrahedra;
@@ -43,6 +43,7 @@ impl Scene<3> for Bipyramid {
         poses: &[Pose],
         _: &BodyShapes,
         _: PosesByShift<'_>,
+        _: MostCells,
     ) -> Result<Meshed<3>, RemeshError> {
         let mut mesh = three_tetrahedra();
         let moved: Point<3> = on_mesh(&(poses[0].center - self.start.center));

@@ -125,8 +125,9 @@ pub fn exit_of(error: &RunError) -> Exit {
         | RunError::Command(_)
         | RunError::Waits { .. }
         | RunError::TooLarge { .. }
+        | RunError::BeyondMaxCells { .. }
         | RunError::TooManyCells { .. } => Exit::BadCase,
-        RunError::Mesh(_) | RunError::Remesh { .. } => Exit::Mesh,
+        RunError::Mesh(_) | RunError::Remesh { .. } | RunError::MeshTooLarge { .. } => Exit::Mesh,
         RunError::Session(_) => Exit::Usage,
         RunError::Output(_) => Exit::InputOutput,
     }

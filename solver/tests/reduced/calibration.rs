@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use alewife::case::{Case, CaseFile, Severity, check};
-use alewife::reduced::{Calibrated, Deviation, calibrate};
+use alewife::reduced::{Calibrated, Deviation, calibrate, check_records};
 
 use super::read;
 
@@ -149,6 +149,25 @@ fn bad_calibrations_are_refused_by_key_and_line() {
         |settings: &[&str]| calibrate(&read("eel-calibration", settings)).unwrap_err().to_string();
     let missing = refused(&["calibration.from.0.time=when"]);
     assert!(missing.contains("calibration.from.0") && missing.contains("`when`"), "{missing}");
+    for (setting, key, message, help) in [
+        ("calibration.from.1.csv=nowhere.csv", "1.csv", "nowhere.csv: No such file", "a CSV file"),
+        ("calibration.from.0.time=t", "0.time", "columns: t (s), head x (cm)", "name a column"),
+        (
+            "calibration.from.0.columns={ 'eel-1.x' = 'yaw' }",
+            "0.columns.eel-1.x",
+            "there is no column `yaw`",
+            "name a column",
+        ),
+        ("calibration.from.1.set=['body.9.force=1']", "1.set", "with these settings: ", ""),
+    ] {
+        let file = read("eel-calibration", &[setting]);
+        let found = check_records(&file).and_then(|error| error.diagnostic(&file));
+        let found = found.unwrap_or_else(|| panic!("{setting} is refused"));
+        assert_eq!(found.key, format!("calibration.from.{key}"), "{setting}");
+        assert!(found.message.contains(message) && found.help.contains(help), "{found:?}");
+        assert!(found.location.is_some(), "{setting}");
+    }
+    assert!(check_records(&read("eel-calibration", &[])).is_none());
     let place = tempfile::tempdir().unwrap();
     let rows = "t,x\n0.0,1.0\n0.1,1.1\n0.1,1.2\n0.2,1.3\n";
     std::fs::write(place.path().join("rows.csv"), rows).unwrap();

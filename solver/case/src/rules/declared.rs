@@ -175,7 +175,7 @@ fn with_article(word: &str) -> String {
 /// What a key means, on one line.
 fn meaning(declared: &Value) -> String {
     let text = declared["description"].as_str().unwrap_or_default();
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    text.trim_end().trim_end_matches('.').split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::Findings;
 use crate::spec::formula::mistake_in_name;
 use crate::text::nearest::several_nearest;
-use crate::{CaseFile, EnvironmentSpec, Law, Mistake, Signals, TimeSettings};
+use crate::{CaseFile, Ending, EnvironmentSpec, Law, Mistake, Signals, TimeSettings};
 
 /// Steps in an interval, less the nearest whole number, that are rounding.
 const ROUNDING: f64 = 1e-6;
@@ -15,6 +15,7 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
     let Some(spec) = &findings.case().environment else { return };
     interval(findings, spec);
     lists(findings, spec);
+    distinct(findings, spec);
     names(findings, spec);
     if let Err(mistakes) = Signals::new(findings.model(), spec) {
         for Mistake { key, message, help } in mistakes {
@@ -93,6 +94,34 @@ fn lists(findings: &mut Findings<'_>, spec: &EnvironmentSpec) {
             format!("{} samples are asked for", spec.samples),
             &format!("a number from 1 to {MOST_SAMPLES}"),
         );
+    }
+}
+
+/// Terms of the reward and ends are told apart by their names.
+fn distinct(findings: &mut Findings<'_>, spec: &EnvironmentSpec) {
+    let named = |ending: &Ending| ending.name.clone().unwrap_or_else(|| ending.when.clone());
+    let terms = spec.reward.iter().map(|term| term.name.clone().unwrap_or_else(|| term.of.clone()));
+    let lists: [(&str, &str, Vec<String>); 3] = [
+        ("reward", "of", terms.collect()),
+        ("terminate", "when", spec.terminate.iter().map(named).collect()),
+        ("truncate", "when", spec.truncate.iter().map(named).collect()),
+    ];
+    for (list, own, names) in lists {
+        for (nth, name) in
+            names.iter().enumerate().filter(|(nth, name)| names[..*nth].contains(name))
+        {
+            let is_given = match list {
+                "reward" => spec.reward[nth].name.is_some(),
+                "terminate" => spec.terminate[nth].name.is_some(),
+                _ => spec.truncate[nth].name.is_some(),
+            };
+            let key = if is_given { "name" } else { own };
+            findings.error(
+                &format!("environment.{list}.{nth}.{key}"),
+                format!("two entries of `{list}` are called \"{name}\""),
+                "give each a name of its own: name = \"...\"",
+            );
+        }
     }
 }
 
@@ -249,6 +278,14 @@ reach = 0.1
             (
                 "environment.reward=[{ of = '[eel.velocity.w]' }]",
                 "reward.0.of \"[eel.velocity.w]\" at character 1: there is no `eel.velocity.w` did you mean `eel.velocity.x`",
+            ),
+            (
+                "environment.reward=[{ of = 'way' }, { of = 'eel.x', name = 'way' }]",
+                "reward.1.name two entries of `reward` are called \"way\" give each a name",
+            ),
+            (
+                "environment.terminate=[{ when = 'way < 1' }, { when = 'way < 1' }]",
+                "terminate.1.when two entries of `terminate` are called \"way < 1\"",
             ),
             ("environment.value.side='way'", "value.side values depend on each other: side, way"),
             ("environment.value.sin='1'", "value.sin a value cannot be called `sin`"),

@@ -1,6 +1,8 @@
 //! `[mesh]`: cell sizes.
 
 use std::collections::BTreeMap;
+#[cfg(test)]
+use std::num::NonZeroUsize;
 
 #[cfg(test)]
 use crate::spec::number::{Fraction, PerDimension, Positive, UpToOne};
@@ -30,6 +32,11 @@ pub struct MeshSettings {
     #[serde(default = "default_gap_layers")]
     #[cfg_attr(test, schemars(with = "Positive"))]
     pub gap_layers: f64,
+    /// Cells of a mesh at most: a run that needs a new one with more ends. If absent, ten times those of the first mesh, or
+    /// 50000 in the plane and 200000 in space where that is more.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<NonZeroUsize>"))]
+    pub max_cells: Option<usize>,
     /// Rectangles, or boxes in space, with finer cells.
     #[serde(default, skip_serializing_if = "Vec::is_empty", rename = "box")]
     pub boxes: Vec<RefinementBox>,

@@ -1,5 +1,7 @@
 //! Names in a case: what may be one, of a body as of a variant.
 
+use std::collections::BTreeMap;
+
 /// The table that says what a sweep varies; it is no part of the case itself.
 pub const SWEEP: &str = "sweep";
 
@@ -27,4 +29,24 @@ pub fn unusable_as_directory(name: &str) -> Option<String> {
 #[must_use]
 pub fn is_word(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
+}
+
+/// A step along a dotted path.
+pub struct Step<'a, 'p, T> {
+    /// Where it leads to.
+    pub node: &'a T,
+    /// What is left of the path.
+    pub after: &'p str,
+}
+
+/// The entry whose key has dots, such as `"body.x" = ...`, at the beginning of a path.
+pub fn with_dots<'a, 'p, T>(
+    entries: &'a BTreeMap<String, T>,
+    path: &'p str,
+) -> Option<Step<'a, 'p, T>> {
+    let dotted = entries.iter().filter(|(key, _)| key.contains('.'));
+    let mut steps = dotted.filter_map(|(key, node)| {
+        path.strip_prefix(key.as_str()).map(|after| Step { node, after })
+    });
+    steps.find(|Step { after, .. }| after.is_empty() || after.starts_with('.'))
 }

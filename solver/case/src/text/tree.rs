@@ -9,6 +9,7 @@ use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
 use super::choices::CHOICES;
+use super::names::{Step, with_dots};
 use super::source::{Origin, Source};
 use super::toml_help::toml_help;
 
@@ -175,16 +176,22 @@ impl TomlNode {
     /// The value at a dotted path, or the nearest table around it that is written.
     pub fn find(&self, path: &str) -> Found<'_> {
         let mut here = self;
-        for step in path.split('.').filter(|step| !step.is_empty()) {
+        let mut left = path.trim_start_matches('.');
+        while !left.is_empty() {
+            let (step, after) = left.split_once('.').unwrap_or((left, ""));
             let next = match &here.value {
-                TomlValue::Table(entries) => entries.get(step),
+                TomlValue::Table(entries) => match entries.get(step) {
+                    Some(node) => Some(Step { node, after }),
+                    None => with_dots(entries, left),
+                },
                 TomlValue::Array(items) => {
-                    step.parse().ok().and_then(|index: usize| items.get(index))
+                    let item = step.parse().ok().and_then(|index: usize| items.get(index));
+                    item.map(|node| Step { node, after })
                 }
                 _ => None,
             };
             match next {
-                Some(node) => here = node,
+                Some(Step { node, after }) => (here, left) = (node, after.trim_start_matches('.')),
                 None => return Found { node: here, is_exact: false },
             }
         }
@@ -342,6 +349,13 @@ mod tests {
         assert_eq!(written_at("body.0"), (3, 1));
         assert_eq!(written_at("body.1"), (5, 1));
         assert_eq!(written_at("body.1.x.1"), (6, 9));
+        let root = tree("[set]\n\"body.0.x\" = 1.0\nbody = { 0 = 3 }\n\"a.b\" = { c = 2 }\n");
+        let line = |path: &str| root.get(path).map(|node| node.origin.location().line);
+        assert_eq!(line("set.body.0.x"), None);
+        assert_eq!(line("set.body.0"), Some(3));
+        assert_eq!(line("set.a.b"), Some(4));
+        assert_eq!(line("set.a.b.c"), Some(4));
+        assert_eq!(line("set.a"), None);
     }
 
     #[test]

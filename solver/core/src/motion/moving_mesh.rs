@@ -9,7 +9,7 @@ use super::boundary_condition::{MeshBoundaryCondition, MotionError, mesh_boundar
 use super::elliptic::MeshMotion;
 use super::rigid::RigidMove;
 use super::rolling::Rolling;
-use super::scene::{Meshed, PosesByShift, RemeshError, RestPlace, Scene};
+use super::scene::{Meshed, MostCells, PosesByShift, RemeshError, RestPlace, Scene};
 use super::stiffness::MotionKind;
 use crate::body::{Pose, RigidVector, in_space, on_mesh};
 use crate::contact::Gaps;
@@ -265,17 +265,18 @@ impl<const D: usize> MovingMesh<D> {
     /// Generates a mesh with bodies of these shapes at poses seen from the frame.
     ///
     /// # Errors
-    /// When it cannot be generated.
+    /// When it cannot be generated, or would have more cells than it may have.
     pub fn remesh(
         &self,
         poses: &[Pose],
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
+        most: MostCells,
     ) -> Result<Meshed<D>, RemeshError> {
         if self.scene.has_moving_wall() {
             return Err(RemeshError::MovingWall);
         }
-        self.scene.remesh(poses, shapes, shifted)
+        self.scene.remesh(poses, shapes, shifted, most)
     }
 
     /// The same kind of motion for another mesh, made for bodies at poses at a time (s).

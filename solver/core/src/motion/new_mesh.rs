@@ -5,7 +5,7 @@ use alewife_mesh::Mesh;
 use nalgebra::Vector3;
 
 use super::moving_mesh::MovingMesh;
-use super::scene::{Meshed, RemeshError};
+use super::scene::{Meshed, MostCells, RemeshError};
 use crate::body::Pose;
 use crate::coupling::{BodyShapes, Problem};
 use crate::state::{State, seen_from};
@@ -27,27 +27,29 @@ pub(super) struct NewMesh<const D: usize> {
     pub image_shifts: Vec<Vector3<f64>>,
 }
 
-/// Bodies at a time.
+/// Bodies at a time, and the cells that a mesh around them may have.
 struct Expected {
     time: f64,
     poses: Vec<Pose>,
+    most: MostCells,
 }
 
 /// The mesh that takes the place of that of a state, with bodies of these shapes at present.
 ///
 /// # Errors
-/// When it cannot be generated.
+/// When it cannot be generated, or would have more cells than it may have.
 pub(super) fn new_mesh<const D: usize>(
     problem: &Problem<D>,
     state: &State<D>,
     moving: &MovingMesh<D>,
     shapes: &BodyShapes,
+    most: MostCells,
 ) -> Result<NewMesh<D>, RemeshError> {
-    if let Some(made) = generate_for_future_poses(problem, state, moving, shapes) {
+    if let Some(made) = generate_for_future_poses(problem, state, moving, shapes, most) {
         return Ok(made);
     }
-    let present = Expected { time: state.time, poses: state.poses.clone() };
-    generate(problem, state, moving, shapes, &present)
+    let poses = state.poses.clone();
+    generate(problem, state, moving, shapes, &Expected { time: state.time, poses, most })
 }
 
 /// A mesh that is best where bodies are expected later, so that it lasts for nearly twice as long as one that is best at
@@ -57,6 +59,7 @@ fn generate_for_future_poses<const D: usize>(
     state: &State<D>,
     moving: &MovingMesh<D>,
     shapes: &BodyShapes,
+    most: MostCells,
 ) -> Option<NewMesh<D>> {
     // In the plane a mesh is a small part of a step, and is made where bodies are at present
     if D == 2 {
@@ -67,7 +70,7 @@ fn generate_for_future_poses<const D: usize>(
     if lead < FEWEST_STEPS * state.last_step {
         return None;
     }
-    let ahead = expected(problem, state, moving, shapes, lead);
+    let ahead = Expected { most, ..expected(problem, state, moving, shapes, lead) };
     let mut made = generate(problem, state, moving, shapes, &ahead).ok()?;
     let poses = seen_from(&state.origin, &state.poses, &made.image_shifts);
     let reason = made.moving.reason_to_replace(&made.mesh, &poses, shapes);
@@ -96,7 +99,8 @@ fn expected<const D: usize>(
         state.in_own_frame(problem, &poses)
     });
     let lead = lead * part;
-    Expected { time: state.time + lead, poses: poses_after(lead) }
+    let most = MostCells(f64::INFINITY);
+    Expected { time: state.time + lead, poses: poses_after(lead), most }
 }
 
 /// A mesh generated for bodies where they are expected, moved to where they are with these shapes.
@@ -107,7 +111,7 @@ fn generate<const D: usize>(
     shapes_now: &BodyShapes,
     expected: &Expected,
 ) -> Result<NewMesh<D>, RemeshError> {
-    let Expected { time, poses } = expected;
+    let Expected { time, poses, most } = expected;
     let origin = state.origin_at(problem, poses);
     let shapes = BodyShapes::with(&problem.bodies, *time, &state.shapes.now)?;
     let moved = |shifts: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
@@ -115,7 +119,7 @@ fn generate<const D: usize>(
     };
     let shifted = |shifts: &[Vector3<f64>]| seen_from(&origin, poses, &moved(shifts));
     let seen = state.in_frame(&origin, poses);
-    let Meshed { mesh, scene, poses, shifts } = moving.remesh(&seen, &shapes, &shifted)?;
+    let Meshed { mesh, scene, poses, shifts } = moving.remesh(&seen, &shapes, &shifted, *most)?;
     let image_shifts = moved(&shifts);
     let moving =
         moving.succeeded_by(&mesh, scene, poses, *time)?.with_coordinates(state.shapes.now.clone());

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::moving_mesh::MovingMesh;
 use super::new_mesh::{NewMesh, new_mesh};
-use super::scene::RemeshError;
+use super::scene::{MostCells, RemeshError};
 use super::transfer::Transfer;
 use crate::body::on_mesh;
 use crate::coupling::{
@@ -34,15 +34,16 @@ struct Level<'a, const D: usize> {
 /// state is where it was.
 ///
 /// # Errors
-/// When the mesh cannot be generated, or the flow not be made divergence-free on it.
+/// When the mesh cannot be generated, would have more cells than it may have, or the flow not be made divergence-free on it.
 pub fn replace_mesh<const D: usize>(
     problem: &Problem<D>,
     state: &mut State<D>,
     moving: &MovingMesh<D>,
+    most: MostCells,
 ) -> Result<MovingMesh<D>, RemeshError> {
     let shapes = BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
     let NewMesh { mesh: new, moving: successor, image_shifts } =
-        new_mesh(problem, state, moving, &shapes)?;
+        new_mesh(problem, state, moving, &shapes, most)?;
     let poses = seen_from(&state.origin, &state.poses, &image_shifts);
     // The frame was elsewhere one level back, too
     let origin_before = state.origin_at(problem, &state.previous_poses);

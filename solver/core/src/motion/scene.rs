@@ -35,6 +35,14 @@ pub enum RemeshError {
         /// Which level.
         level: &'static str,
     },
+    /// More cells than the run may have; there may be no mesh yet.
+    #[error("the mesh would have about {n_cells:.1e} cells, and may have {most:.1e}")]
+    TooManyCells {
+        /// How many, about.
+        n_cells: f64,
+        /// How many it may have.
+        most: f64,
+    },
     /// A side that moves is not meshed again.
     #[error("a side that waves is not remeshed; take a smaller amplitude")]
     MovingWall,
@@ -68,6 +76,47 @@ pub struct RestPlace {
     pub body: usize,
     /// Where its material point is at rest (m).
     pub place: Vector3<f64>,
+}
+
+/// Part by which an estimate of cells may be too high.
+const UNCERTAIN: f64 = 1.4;
+
+/// The most cells that a mesh may have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MostCells(pub f64);
+
+impl MostCells {
+    /// Refuses a mesh before it is made, by an estimate of its cells that ends at a limit.
+    ///
+    /// # Errors
+    /// When there would be more, by more than an estimate may be too high.
+    pub fn check_before(
+        self,
+        estimate: impl FnOnce(f64) -> Result<f64, MeshError>,
+    ) -> Result<(), RemeshError> {
+        let limit = UNCERTAIN * self.0;
+        if limit.is_infinite() {
+            return Ok(());
+        }
+        // Ten times as many are not counted to the last
+        let counted = 10.0 * limit;
+        match estimate(counted)?.min(counted) {
+            n_cells if n_cells > limit => Err(RemeshError::TooManyCells { n_cells, most: self.0 }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses a mesh that has more.
+    ///
+    /// # Errors
+    /// When it has.
+    pub fn check<const D: usize>(self, mesh: &Mesh<D>) -> Result<(), RemeshError> {
+        let n_cells = mesh.n_cells() as f64;
+        if n_cells > self.0 {
+            return Err(RemeshError::TooManyCells { n_cells, most: self.0 });
+        }
+        Ok(())
+    }
 }
 
 /// Poses of bodies that have been moved by whole periods (m).
@@ -132,12 +181,13 @@ pub trait Scene<const D: usize>: Debug + Send + Sync {
     /// Generates a mesh with bodies of these shapes at poses seen from the frame.
     ///
     /// # Errors
-    /// When it cannot be generated.
+    /// When it cannot be generated, or would have more cells than it may have.
     fn remesh(
         &self,
         poses: &[Pose],
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
+        most: MostCells,
     ) -> Result<Meshed<D>, RemeshError>;
 
     /// The vectors by which the domain repeats (m), for points of these meshes.

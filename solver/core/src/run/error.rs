@@ -4,6 +4,7 @@ use alewife_interrupt::Stopped;
 use alewife_mesh::MeshError;
 use thiserror::Error;
 
+use super::cell_bound::Allowed;
 use super::excess::Excess;
 use super::resume::ResumeError;
 use crate::case::{CommandError, rounded};
@@ -73,6 +74,44 @@ pub enum RunError {
         available: f64,
         /// Factor on all sizes with which it would fit.
         coarser: f64,
+    },
+    /// The first mesh has more cells than the case allows, or would.
+    #[error(
+        "the cell sizes ask for {} cells or more, and mesh.max_cells allows {most}; raise mesh.size, mesh.surface \
+         or mesh.growth, lower mesh.gap_layers, or raise mesh.max_cells",
+        whole(*n_cells)
+    )]
+    BeyondMaxCells {
+        /// How many, perhaps by an estimate.
+        n_cells: f64,
+        /// How many are allowed.
+        most: usize,
+    },
+    /// A new mesh would have more cells than it may have.
+    #[error(
+        "{}: a new mesh would have about {} cells, and {} is the most ({}). It is needed where the one at hand is \
+         worn: {reason}{nearest}{}",
+        at_step(*step, *time),
+        whole(*n_cells),
+        whole(allowed.most),
+        allowed.by,
+        advice(*closes)
+    )]
+    MeshTooLarge {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Cells, perhaps by an estimate.
+        n_cells: f64,
+        /// What is allowed.
+        allowed: Allowed,
+        /// Why a new mesh was needed, and where.
+        reason: String,
+        /// The smallest gap in words, if there is one.
+        nearest: String,
+        /// Whether nothing keeps gaps open.
+        closes: bool,
     },
     /// A request the solver cannot meet (a case that `check` should have refused).
     #[error("{0}")]
@@ -152,6 +191,23 @@ impl RunError {
             RemeshError::Shape(error) => FlowError::from(error).into(),
             error => Self::Unsupported(error.to_string()),
         }
+    }
+}
+
+/// A number of cells.
+fn whole(n_cells: f64) -> String {
+    if n_cells < 1e5 { format!("{n_cells:.0}") } else { format!("{n_cells:.2e}") }
+}
+
+/// What helps where a mesh grows too large.
+fn advice(closes: bool) -> &'static str {
+    if closes {
+        ". Where a gap closes without contact, cells become ever smaller: keep it open by [contact], such as \
+         contact.barrier, or end the run before, by time.unsteady.end; lower mesh.gap_layers, or raise mesh.max_cells \
+         and continue from failure/last.state with --resume"
+    } else {
+        ". Lower mesh.gap_layers, raise mesh.size, mesh.surface or mesh.growth, or raise mesh.max_cells, and \
+         continue from failure/last.state with --resume"
     }
 }
 

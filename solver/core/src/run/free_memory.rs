@@ -13,6 +13,11 @@ pub fn free_memory() -> Option<f64> {
     all.into_iter().flatten().reduce(f64::min)
 }
 
+/// Memory that the process holds (bytes), where the system tells.
+pub fn taken_memory() -> Option<f64> {
+    kilobytes("/proc/self/status", "VmRSS:")
+}
+
 /// What the machine can give without swapping (bytes).
 fn of_machine() -> Option<f64> {
     kilobytes("/proc/meminfo", "MemAvailable:")

@@ -2,6 +2,7 @@
 
 mod build;
 mod case_mesh;
+mod cell_bound;
 mod control;
 mod error;
 mod excess;
@@ -27,6 +28,7 @@ mod watch;
 
 pub use build::{BodyRecoil, build_problem, motion_settings, recoils, shape_motion, sizing};
 pub use case_mesh::{CaseMesh, Dimension, InitialMesh, NearestOnBody, build_mesh};
+pub use cell_bound::{Allowed, AllowedBy, CellBound};
 pub use error::RunError;
 pub use excess::Excess;
 pub use measure::{BodiesInFlow, steady_value};

@@ -6,10 +6,11 @@ use alewife_mesh::Mesh;
 use super::RunError;
 use super::build::{Scalars, Tracers, build_problem, contact_law};
 use super::case_mesh::{CaseMesh, Dimension, InitialMesh};
+use super::cell_bound::CellBound;
 use super::measure::Measure;
 use super::resume::SavedState;
 use super::simulation::{Simulation, fluid_system};
-use super::start::{check_memory, step_scheme};
+use super::start::{check_max_cells, check_memory, step_scheme};
 use super::step_control::StepControl;
 use crate::case::{Case, Model, Scheme, TimeSettings};
 use crate::coupling::{Problem, ShapeError};
@@ -151,6 +152,8 @@ fn at_rest<const D: usize>(
 ) -> Result<Simulation<D>, RunError> {
     let case = &model.case;
     let InitialMesh { mesh, shifts, make_moving } = initial;
+    check_max_cells(case, &mesh)?;
+    let cell_bound = CellBound::new(case, mesh.n_cells());
     let mut problem = build_problem(model, &mesh)?;
     change(&mut problem)?;
     check_coordinates(case, &problem)?;
@@ -163,7 +166,7 @@ fn at_rest<const D: usize>(
     let moving_mesh = moving_mesh.transpose()?;
     check()?;
     let system = timing.measure(Stage::Assembly, || {
-        fluid_system(&problem, &state, moving_mesh.as_ref(), scheme.unknown_frame)
+        fluid_system(&problem, &state, moving_mesh.as_ref(), scheme.unknown_frame, check)
     })?;
     tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
     let law = contact_law(model)?;
@@ -177,6 +180,7 @@ fn at_rest<const D: usize>(
         law,
         scheme,
         is_fresh: true,
+        cell_bound,
         tracers: None,
         scalars: None,
         stop: None,

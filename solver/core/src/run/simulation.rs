@@ -1,18 +1,20 @@
 //! `Simulation`: problem, state and workspace; a step of a given size, on a new mesh where needed.
 
+use alewife_interrupt::Stopped;
 use alewife_mesh::{CellId, NodeId};
 use rayon::prelude::*;
 
 use super::build::{Scalars, Tracers};
+use super::cell_bound::{AtHand, CellBound, nearest_gap};
 use super::error::RunError;
 use super::step_control::StepControl;
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
 use crate::coupling::{
-    BodiesAt, BodyLoads, BodyShapes, FluidSystem, MeshedBodies, Problem, ResidualAt, ShapeError,
+    BodiesAt, BodyLoads, BodyShapes, FluidSystem, MeshedBodies, Problem, ResidualAt, RestPlaces,
     SolverChoice, SurfaceLoads,
 };
-use crate::motion::{MovingMesh, replace_mesh};
+use crate::motion::{MovingMesh, RemeshError, replace_mesh};
 use crate::scalar::Level;
 use crate::state::{NewLevel, State};
 use crate::step::{
@@ -40,6 +42,8 @@ pub struct Simulation<const D: usize> {
     pub law: Option<Law>,
     /// How steps are made.
     pub scheme: StepScheme,
+    /// What new meshes are measured by.
+    pub cell_bound: CellBound,
     /// Whether no step has been made on this mesh.
     pub is_fresh: bool,
     /// What the flow carries, if anything.
@@ -78,25 +82,31 @@ pub enum Attempt {
     Rejected(StepError),
 }
 
-/// The linear system of a state on its mesh, with what moves that.
+/// The linear system of a state on its mesh, with what moves that; `look` is called between its parts.
 ///
 /// # Errors
-/// When coordinates of a body give it no shape.
+/// When coordinates of a body give it no shape, and those of `look`.
 pub(super) fn fluid_system<const D: usize>(
     problem: &Problem<D>,
     state: &State<D>,
     moving: Option<&MovingMesh<D>>,
     unknown_frame: bool,
-) -> Result<FluidSystem<D>, ShapeError> {
+    look: impl Fn() -> Result<(), Stopped>,
+) -> Result<FluidSystem<D>, RunError> {
     let poses = &state.in_mesh(&state.poses);
+    let choice = SolverChoice::default();
     let Some(moving) = moving.filter(|_| problem.n_coordinates() > 0) else {
-        return Ok(FluidSystem::new(problem, &state.mesh, poses, unknown_frame));
+        // Which unknowns are constrained does not depend on how bodies deform
+        let shapes = &BodyShapes::rigid(problem.bodies.len());
+        let bodies =
+            MeshedBodies { at: BodiesAt { poses, shapes }, rest_places: RestPlaces::new() };
+        let mesh = &state.mesh;
+        return Ok(FluidSystem::with_bodies(problem, mesh, bodies, unknown_frame, choice, look)?);
     };
     let shapes = &BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
     let rest_places = moving.rest_places(shapes);
     let bodies = MeshedBodies { at: BodiesAt { poses, shapes }, rest_places };
-    let choice = SolverChoice::default();
-    Ok(FluidSystem::with_bodies(problem, &state.mesh, bodies, unknown_frame, choice))
+    Ok(FluidSystem::with_bodies(problem, &state.mesh, bodies, unknown_frame, choice, look)?)
 }
 
 /// Scalars after a step, and the differences it was made by.
@@ -236,21 +246,38 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn remesh(&mut self, reason: &str) -> Result<(), RunError> {
-        let Self { problem, state, work, moving_mesh: Some(moving), scheme, .. } = self else {
+        let Self {
+            problem, state, work, moving_mesh: Some(moving), scheme, law, cell_bound, ..
+        } = self
+        else {
             return Ok(());
         };
         let (step, time) = (state.step, state.time);
-        *moving = work
-            .timing
-            .measure(Stage::Mesh, || replace_mesh(problem, state, moving))
-            .map_err(|reason| RunError::Remesh { step, time, reason: Box::new(reason) })?;
+        let n_cells = state.mesh.n_cells();
+        let at_hand = AtHand { n_cells, is_iterative: work.system.is_iterative() };
+        let allowed = cell_bound.allowed::<D>(at_hand);
+        let most = allowed.cells();
+        let made = work.timing.measure(Stage::Mesh, || replace_mesh(problem, state, moving, most));
+        *moving = made.map_err(|error| match error {
+            RemeshError::TooManyCells { n_cells, .. } => RunError::MeshTooLarge {
+                step,
+                time,
+                n_cells,
+                allowed,
+                reason: reason.to_owned(),
+                nearest: nearest_gap(state, moving),
+                closes: law.is_none(),
+            },
+            error => RunError::Remesh { step, time, reason: Box::new(error) },
+        })?;
         tracing::info!(step, time, cells = state.mesh.n_cells(), reason, "remeshed");
         if let Some(scalars) = &mut self.scalars {
             scalars.forget_mesh();
         }
         work.mesh = state.mesh.clone();
         work.system = work.timing.measure(Stage::Assembly, || {
-            fluid_system(problem, state, Some(moving), scheme.unknown_frame)
+            // A state on a new mesh with the solver of the old one would not be one
+            fluid_system(problem, state, Some(moving), scheme.unknown_frame, || Ok(()))
         })?;
         self.is_fresh = true;
         Ok(())

@@ -174,17 +174,31 @@ pub(super) fn check_memory<const D: usize>(mesh: &Mesh<D>) -> Result<(), RunErro
     }
 }
 
+/// Refuses a mesh with more cells than the case allows.
+pub(super) fn check_max_cells<const D: usize>(case: &Case, mesh: &Mesh<D>) -> Result<(), RunError> {
+    let n_cells = mesh.n_cells() as f64;
+    match case.mesh.max_cells {
+        Some(most) if mesh.n_cells() > most => Err(RunError::BeyondMaxCells { n_cells, most }),
+        _ => Ok(()),
+    }
+}
+
 /// Refuses a mesh before it is made, by an estimate of its cells, which gets the number from which on
 /// they need not be counted.
 pub(super) fn check_cells<const D: usize>(
+    max_cells: Option<usize>,
     estimate: impl FnOnce(f64) -> Result<f64, MeshError>,
 ) -> Result<(), RunError> {
-    let Some(available) = free_memory() else { return Ok(()) };
+    let available = free_memory().unwrap_or(f64::INFINITY);
     let memory = |n_cells: f64| memory_estimate(D, DOFS_OF_CELL * n_cells) / GIGABYTE;
     // In proportion to what a million cells need
     let fitting = UNCERTAIN * 1e6 * available / memory(1e6);
-    let limit = 10.0 * fitting;
+    let given = max_cells.map_or(f64::INFINITY, |most| UNCERTAIN * most as f64);
+    let limit = 10.0 * fitting.min(given);
     let n_cells = estimate(limit)?;
+    if let Some(most) = max_cells.filter(|_| n_cells > given) {
+        return Err(RunError::BeyondMaxCells { n_cells: n_cells.min(limit), most });
+    }
     if n_cells <= fitting {
         return Ok(());
     }
@@ -204,14 +218,17 @@ mod tests {
 
     #[test]
     fn more_cells_than_fit_are_refused_with_what_would_fit() {
-        assert!(check_cells::<2>(|_| Ok(1e3)).is_ok());
+        assert!(check_cells::<2>(None, |_| Ok(1e3)).is_ok());
         if free_memory().is_none() {
             return;
         }
         let infinite = |_| Ok(f64::INFINITY);
-        for (refused, power) in
-            [(check_cells::<2>(infinite), 1.0 / 2.0), (check_cells::<3>(infinite), 1.0 / 3.0)]
-        {
+        let beyond = check_cells::<2>(Some(500), |_| Ok(1e3));
+        assert!(matches!(beyond, Err(RunError::BeyondMaxCells { most: 500, .. })), "{beyond:?}");
+        for (refused, power) in [
+            (check_cells::<2>(None, infinite), 1.0 / 2.0),
+            (check_cells::<3>(None, infinite), 1.0 / 3.0),
+        ] {
             match refused {
                 Err(RunError::TooManyCells { coarser, needed, available, .. }) => {
                     assert!((coarser - 10f64.powf(power)).abs() < 1e-9, "{coarser}");

@@ -6,6 +6,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use alewife_interrupt::Listener;
 use alewife_mesh::{CellId, Mesh};
 use rayon::prelude::*;
 
@@ -177,7 +178,7 @@ pub fn pressure_unknowns<const D: usize>(
 }
 
 /// Gives `scatter` what each cell has of P^T A P, in the order of the cells, for the matrix A of the terms,
-/// linearised at the fields.
+/// linearised at the fields. Where the work of this thread is to end, numbers of some cells are left out.
 pub fn assemble<const D: usize>(
     assembly: &Assembly<D>,
     mesh: &Mesh<D>,
@@ -190,12 +191,13 @@ pub fn assemble<const D: usize>(
     debug_assert!(has_frame || terms.convection != Convection::NewtonInFrame);
     let input = CellInput { mesh, terms, fields };
     let stride = assembly.folds.largest_matrix();
-    for_each_cell(
-        mesh.n_cells(),
-        stride,
-        |cells, matrices| assembly.matrices(constraints, input, cells, stride, matrices),
-        scatter,
-    );
+    let listener = Listener::here();
+    let compute = |cells: Range<usize>, matrices: &mut [f64]| {
+        if !listener.is_requested() {
+            assembly.matrices(constraints, input, cells, stride, matrices);
+        }
+    };
+    for_each_cell(mesh.n_cells(), stride, compute, scatter);
 }
 
 /// The raw residual of the terms at the fields, without anything of the bodies' own.

@@ -26,8 +26,8 @@ pub(super) struct KrylovSolution {
 
 /// Solves A x = b from x = 0.
 ///
-/// Where the work of this thread is to end, it ends where it is. `multiply` overwrites its second argument with A times the first, `precondition` with an
-/// approximation of A^-1 times the first.
+/// Where the work of this thread is to end, it ends where it is. `multiply` overwrites its second argument
+/// with A times the first, `precondition` with an approximation of A^-1 times the first.
 pub(super) fn fgmres(
     mut multiply: impl FnMut(&[f64], &mut [f64]),
     mut precondition: impl FnMut(&[f64], &mut [f64]),

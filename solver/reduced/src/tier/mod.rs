@@ -4,6 +4,7 @@ mod compare;
 mod evaluate;
 mod fields;
 mod job;
+mod marked;
 mod mesh;
 mod model;
 mod output;

@@ -4,6 +4,7 @@ use crate::soft::{Gradient, Markers, Plan, SoftBody, SoftError, Travel};
 use alewife_solid::solid::Scheme;
 use thiserror::Error;
 
+use super::marked::markers;
 use super::mesh::{Bodies, SolidOf};
 use super::record::{Recorded, recorded};
 use super::{mesh, solid};
@@ -63,7 +64,7 @@ where
         let recorded = recorded(file)?;
         let mesh = <mesh::Bodies as SolidOf<D>>::mesh(file, solid)?;
         let body = solid::body(file, solid, mesh)?;
-        let nodes = file.case.marker.iter().map(|marker| nearest(&body, &marker.at)).collect();
+        let nodes = markers(file, &body)?;
         let soft = &file.case.soft;
         let scheme = match soft.scheme {
             SoftScheme::Euler => Scheme::ImplicitEuler,
@@ -157,12 +158,4 @@ where
             direction: direction.iter().map(|x| x / length).collect(),
         }
     }
-}
-
-/// The node nearest to a point.
-fn nearest<const D: usize>(body: &SoftBody<D>, at: &[f64]) -> usize {
-    let nodes = &body.solid.spec().mesh.nodes;
-    let distance =
-        |node: &usize| -> f64 { nodes[*node].iter().zip(at).map(|(x, y)| (x - y) * (x - y)).sum() };
-    (0..nodes.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
 }

@@ -19,6 +19,7 @@ use crate::cli::soft;
 use crate::cli::style::{self, Ink, on_stdout, say};
 use crate::cli::sweep::check_points;
 use crate::observer::reset_peak_memory;
+use crate::reduced::check_records;
 use crate::run::{BodyRecoil, Dimension, RunError, Solve, build_mesh, recoils};
 use crate::runner::{threads, too_large};
 use crate::timing::cpu_seconds;
@@ -70,6 +71,10 @@ fn check_one(argument: &str, settings: &[String], depth: Depth) -> Result<(), Fa
     if !recoils.is_empty() {
         let _ = write!(text, "\n{}\n", on_stdout(Ink::Bold, "recoil subtracted from the gaits"));
         text.extend(recoils.iter().map(|recoil| format!("  {}\n", recoil_line(recoil))));
+    }
+    let wrong = check_records(&file);
+    if let Some(diagnostic) = wrong.and_then(|error| error.diagnostic(&file)) {
+        return Err(Failure::wrong(&[diagnostic]));
     }
     if let Some(line) = search_line(&file) {
         let _ = write!(text, "\n{line}\n");

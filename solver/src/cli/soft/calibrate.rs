@@ -33,6 +33,9 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
     // Another process may have come to its end since
     check_is_open(&out, options)?;
     let found = find(&file).map_err(|error| {
+        if let Some(diagnostic) = error.diagnostic(&file) {
+            return Failure::wrong(&[diagnostic]);
+        }
         let exit = match &error {
             CalibrateError::Tree(_) | CalibrateError::Model(ReducedError::Tree(_)) => {
                 Exit::Diverged

@@ -3,7 +3,7 @@
 use alewife_reduced::tree::TreeError;
 use thiserror::Error;
 
-use crate::case::CaseError;
+use crate::case::{CaseError, CaseFile, Diagnostic, Severity};
 use crate::reduced::ReducedError;
 
 /// What went wrong.
@@ -17,6 +17,8 @@ pub enum CalibrateError {
     Record {
         /// Its number in the case, from 0.
         number: usize,
+        /// What in its table is to blame, such as `csv` or `columns.NAME.x`.
+        key: String,
         /// What is wrong, and what is accepted.
         what: String,
     },
@@ -34,4 +36,38 @@ pub enum CalibrateError {
     /// A motion or a fit fails.
     #[error(transparent)]
     Tree(#[from] TreeError),
+}
+
+impl CalibrateError {
+    /// What is wrong in a case, with its place there; none of what is no matter of the case.
+    #[must_use]
+    pub fn diagnostic(&self, file: &CaseFile) -> Option<Diagnostic> {
+        let (key, message, help) = match self {
+            Self::Record { number, key, what } => {
+                let help = match key.split('.').next().unwrap_or_default() {
+                    "run" => "give a run directory, or one with run directories in it",
+                    "csv" => {
+                        "give a CSV file with a header, by its path from the file in which it is written"
+                    }
+                    "time" | "columns" => "name a column of numbers, as the header has it",
+                    "frame" => "give both columns, NAME.x and NAME.y, or leave `frame` out",
+                    _ => "see the page on calibration",
+                };
+                (format!("calibration.from.{number}.{key}"), what.clone(), help.to_owned())
+            }
+            Self::Case { number, error } => {
+                let key = format!("calibration.from.{number}.set");
+                match &**error {
+                    CaseError::Wrong(found) if !found.is_empty() => {
+                        let Diagnostic { message, help, .. } = &found[0];
+                        (key, format!("with these settings: {message}"), help.clone())
+                    }
+                    error => (key, format!("with these settings: {error}"), String::new()),
+                }
+            }
+            _ => return None,
+        };
+        let location = file.location(&key);
+        Some(Diagnostic { severity: Severity::Error, key, message, help, location })
+    }
 }

@@ -79,6 +79,7 @@ impl<'a> Loads<'a> {
         for (number, record) in records.iter().enumerate() {
             let moved = moved(record).map_err(|what| CalibrateError::Record {
                 number,
+                key: "run".to_owned(),
                 what: format!("{}: {what}", record.name),
             })?;
             let sizes = sizes(&moved);

@@ -13,6 +13,7 @@ mod tracks;
 
 pub use compare::{Deviation, Overlay};
 pub use error::CalibrateError;
+pub use record::check_records;
 
 use alewife_reduced::tree::Fit;
 

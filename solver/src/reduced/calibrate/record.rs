@@ -101,6 +101,19 @@ pub fn records(
     Ok(records)
 }
 
+/// The first CSV file of a calibration that cannot be read as the case says, or settings that make no case; runs may
+/// still be to come.
+pub fn check_records(file: &CaseFile) -> Option<CalibrateError> {
+    let spec = file.case().calibration.as_ref()?;
+    let reduced = &file.case().reduced_model();
+    let directory = Path::new(&file.file).parent().map_or_else(PathBuf::new, Path::to_path_buf);
+    let of_file = |(number, from)| {
+        let reader = Reader { file, spec, reduced, number, from };
+        from.csv.as_ref().and_then(|csv| reader.rows(&directory, csv).err())
+    };
+    spec.from.iter().enumerate().find_map(of_file)
+}
+
 /// What an entry of `from` is read with.
 struct Reader<'a> {
     file: &'a CaseFile,
@@ -111,8 +124,14 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
+    /// What is wrong with the run or the file.
     fn wrong(&self, what: String) -> CalibrateError {
-        CalibrateError::Record { number: self.number, what }
+        self.wrong_at(if self.from.csv.is_some() { "csv" } else { "run" }, what)
+    }
+
+    /// What is wrong with a key.
+    fn wrong_at(&self, key: &str, what: String) -> CalibrateError {
+        CalibrateError::Record { number: self.number, key: key.to_owned(), what }
     }
 
     /// A run, or all runs in a directory, by name.
@@ -198,11 +217,11 @@ impl Reader<'_> {
             }
         };
         let table = file::table(&bytes).map_err(|what| self.wrong(format!("{name}: {what}")))?;
-        let column = |wanted: &String| {
-            table.column(wanted).map_err(|what| self.wrong(format!("{name}: {what}")))
+        let column = |key: &str, wanted: &String| {
+            table.column(wanted).map_err(|what| self.wrong_at(key, format!("{name}: {what}")))
         };
         let times = match (&self.from.time, self.from.rate) {
-            (Some(time), _) => column(time)?,
+            (Some(time), _) => column("time", time)?,
             (None, rate) => {
                 let rate = rate.unwrap_or(1.0);
                 (0..table.n_rows()).map(|row| row as f64 / rate).collect()
@@ -220,7 +239,10 @@ impl Reader<'_> {
         let mut tracks = Vec::new();
         for (quantity, wanted) in &self.from.columns {
             let unit = self.from.units.get(quantity).copied().unwrap_or(1.0);
-            let values = column(wanted)?.into_iter().map(|value| value * unit).collect();
+            let values = column(&format!("columns.{quantity}"), wanted)?
+                .into_iter()
+                .map(|value| value * unit)
+                .collect();
             tracks.push(self.track(&model, quantity.clone(), values)?);
         }
         self.place(&mut tracks)?;
@@ -242,7 +264,7 @@ impl Reader<'_> {
                     let beside = tracks.iter().position(|one| one.body == body && one.axis == 1);
                     let Some(y) = beside else {
                         let what = format!("{} has a frame, and no y beside it", tracks[k].name);
-                        return Err(self.wrong(what));
+                        return Err(self.wrong_at("frame", what));
                     };
                     for row in 0..tracks[k].values.len() {
                         let at = [tracks[k].values[row], tracks[y].values[row]];
@@ -255,7 +277,7 @@ impl Reader<'_> {
                     let body = tracks[k].body;
                     if !tracks.iter().any(|one| one.body == body && one.axis == 0) {
                         let what = format!("{} has a frame, and no x beside it", tracks[k].name);
-                        return Err(self.wrong(what));
+                        return Err(self.wrong_at("frame", what));
                     }
                 }
                 _ => tracks[k].values.iter_mut().for_each(|angle| *angle += frame.angle),

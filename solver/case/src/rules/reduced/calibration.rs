@@ -146,10 +146,6 @@ fn of_file(findings: &mut Findings<'_>, key: &str, record: &RecordSpec) {
         let message = "the times of a record are a column or a rate".to_owned();
         findings.error(key, message, "write one of `time` and `rate`");
     }
-    if record.rate.is_some_and(|rate| !(rate.is_finite() && rate > 0.0)) {
-        let message = "the rate is not above 0".to_owned();
-        findings.error(&format!("{key}.rate"), message, "write rows a second");
-    }
     if record.start.is_some_and(|start| !(start.is_finite() && start > 0.0)) {
         let message = "the start is not above 0".to_owned();
         findings.error(&format!("{key}.start"), message, "write a time of the model (s)");

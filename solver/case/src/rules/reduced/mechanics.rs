@@ -40,11 +40,12 @@ pub fn check(findings: &mut Findings<'_>, spec: &ReducedSpec) {
     ellipsoids(findings, spec);
 }
 
-/// A number that is finite and above zero, or at least zero, which is told where it is not.
+/// A number that is finite and above zero, or at least zero, which is told where it is not, once.
 fn amount(findings: &mut Findings<'_>, key: &str, value: f64, may_be_zero: bool) {
-    if !(value.is_finite() && (value > 0.0 || may_be_zero && value == 0.0)) {
+    let is_amount = value.is_finite() && (value > 0.0 || may_be_zero && value == 0.0);
+    if !is_amount && findings.is_right(key) {
         let help = if may_be_zero { "a number of 0 or more" } else { "a number above 0" };
-        findings.error(key, format!("it is {value}"), help);
+        findings.error(key, format!("`{key}` is {value}"), help);
     }
 }
 

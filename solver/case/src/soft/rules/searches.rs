@@ -34,14 +34,15 @@ pub fn check(mistakes: &mut Mistakes<'_>) {
         parameters(mistakes, "optimisation", &optimisation.parameter);
         settings(mistakes, "optimisation", &optimisation.search);
     }
+    let at = |key: &str| format!("robot.set.{key}");
     for (key, value) in case.robot.iter().flat_map(|robot| &robot.set) {
         match ParameterKey::find(&case, key) {
-            Ok(found) if found.len() == 1 => keeps_kind(mistakes, found[0], *value),
+            Ok(found) if found.len() == 1 => keeps_kind(mistakes, key, found[0], *value),
             Ok(_) => {
                 let message = format!("`{key}` is a list");
-                mistakes.add("robot.set", message, "give the key of one number in it");
+                mistakes.add(&at(key), message, "give the key of one number in it");
             }
-            Err(error) => mistakes.add("robot.set", error.message, &error.help),
+            Err(error) => mistakes.add(&at(key), error.message, &error.help),
         }
     }
     references(mistakes);
@@ -161,13 +162,13 @@ fn limits(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter, key: Par
 }
 
 /// A ratio of the robot may be 0.5 where that of the model is, and nowhere else: the one has pressures.
-fn keeps_kind(mistakes: &mut Mistakes<'_>, key: ParameterKey, value: f64) {
+fn keeps_kind(mistakes: &mut Mistakes<'_>, name: &str, key: ParameterKey, value: f64) {
     let own = key.read(mistakes.case());
     if matches!(key, ParameterKey::Poisson(_)) && (own == Some(0.5)) != (value == 0.5) {
         let message =
             format!("the robot has a Poisson's ratio of {value}, where the model has another kind");
         let help = "write 0.5, which keeps the volume, for both or for none";
-        mistakes.add("robot.set", message, help);
+        mistakes.add(&format!("robot.set.{name}"), message, help);
     }
 }
 

@@ -282,7 +282,11 @@ impl Parser<'_> {
                 Ok(inside)
             }
             Placed { token, column } => {
-                let accepted = "a number, a name or ( is expected here";
+                let accepted = if matches!(token, Token::Sign("*")) {
+                    "a number, a name or ( is expected here; a power is written x^2"
+                } else {
+                    "a number, a name or ( is expected here"
+                };
                 Err(refuse(column, token.to_string(), accepted))
             }
         }

@@ -1,10 +1,13 @@
 //! The matrix of fluid and bodies, linearised at a solution.
 
+use alewife_interrupt::check;
+
 use super::super::error::SolveError;
 use super::super::linear_system::{Coefficients, Discretised};
 use super::super::mass_tolerance::mass_tolerance;
 use super::super::solution::Solution;
 use super::{Configuration, FluidSystem};
+use crate::algebra::LinearError;
 use crate::flow::{Convection, FlowTerms, ViscosityTerm, assemble};
 use crate::timing::{Stage, Timing};
 
@@ -24,6 +27,7 @@ impl<const D: usize> FluidSystem<D> {
             });
             self.add_body_matrix(at, &solution.rates);
         });
+        check().map_err(LinearError::from)?;
         if let Some(nullspace) = &self.nullspace {
             nullspace.check_balance(at.bodies, &at.mean_flow)?;
         }
@@ -47,6 +51,7 @@ impl<const D: usize> FluidSystem<D> {
             local,
         };
         self.linear.prepare(coefficients, &|| discretised.weights(coefficients), timing);
+        check().map_err(LinearError::from)?;
         self.linear.recall_with_weights()?;
         if self.linear.is_iterative() {
             self.linear.limit_mass(mass_tolerance(at.problem, at.mesh, &solution.velocity));

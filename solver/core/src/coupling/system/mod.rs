@@ -20,6 +20,8 @@ mod residual;
 mod rigid_unknowns;
 mod solver_memory;
 
+use std::convert::Infallible;
+
 use alewife_mesh::{Mesh, Point};
 
 use self::nullspace::TranslationNullspace;
@@ -129,18 +131,23 @@ impl<const D: usize> FluidSystem<D> {
             at: BodiesAt { poses, shapes: &shapes },
             rest_places: RestPlaces::new(),
         };
-        Self::with_bodies(problem, mesh, bodies, unknown_frame, choice)
+        let never = || Ok::<(), Infallible>(());
+        let Ok(system) = Self::with_bodies(problem, mesh, bodies, unknown_frame, choice, never);
+        system
     }
 
-    /// The same with bodies that may have coordinates.
-    #[must_use]
-    pub fn with_bodies(
+    /// The same with bodies that may have coordinates; `look` is called between its parts.
+    ///
+    /// # Errors
+    /// Those of `look`.
+    pub fn with_bodies<E>(
         problem: &Problem<D>,
         mesh: &Mesh<D>,
         bodies: MeshedBodies<'_>,
         unknown_frame: bool,
         choice: SolverChoice,
-    ) -> Self {
+        look: impl Fn() -> Result<(), E>,
+    ) -> Result<Self, E> {
         let MeshedBodies { at, rest_places } = bodies;
         let modes = problem.modes();
         let layout = DofLayout::new(mesh, problem.bodies.len(), modes.len())
@@ -148,6 +155,7 @@ impl<const D: usize> FluidSystem<D> {
         let boundaries = Boundaries::new(mesh);
         let constraints = Constrainer { problem, mesh, layout: &layout, rest_places: &rest_places }
             .constraints(&boundaries, at);
+        look()?;
         let frame = problem.frame.filter(|_| unknown_frame);
         let assembly = Assembly::new(
             mesh,
@@ -157,16 +165,18 @@ impl<const D: usize> FluidSystem<D> {
             &problem.do_nothing_sides(),
             frame,
         );
+        look()?;
         let pressure = PressureMean::new(mesh, assembly.tables());
         let nullspace = TranslationNullspace::new(problem, mesh, assembly.tables());
         let driven = problem.mean_flow.as_ref();
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
         let saddle_point = saddle_point(&layout, &constraints, modes);
         let blocks = blocks_of_bodies(problem, &layout, &constraints);
+        look()?;
         let system = NewSystem { constraints: &constraints, saddle_point, blocks };
         let linear = system_solver(&assembly, system, choice);
         let is_free = free_velocities(&layout, problem.bodies.len(), modes, &constraints);
-        Self {
+        Ok(Self {
             layout,
             boundaries,
             kept_memory: None,
@@ -182,7 +192,7 @@ impl<const D: usize> FluidSystem<D> {
             cell,
             response: MeanFlowResponse::default(),
             rate_response: RateResponse::default(),
-        }
+        })
     }
 
     /// Entries of the matrix.

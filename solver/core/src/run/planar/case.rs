@@ -95,7 +95,9 @@ impl MeshedCase {
         }
         let (domain, mut shapes, sizing) =
             (case.mesh_domain(), placed_bodies(model)?, sizing(case));
-        check_cells::<2>(|limit| estimate_cells(&domain, &shapes, &sizing, limit))?;
+        check_cells::<2>(case.mesh.max_cells, |limit| {
+            estimate_cells(&domain, &shapes, &sizing, limit)
+        })?;
         let (mut mesh, shifts) = if check_placement(&domain, &shapes).is_ok() {
             (generate(&domain, &shapes, &sizing)?, vec![Vector3::zeros(); shapes.len()])
         } else {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use alewife_mesh::{
     BoundaryId, BoundaryKind, GapQuery, Mesh, NodeId, Outline, PlacedShape, Point, Shape,
-    generate_wrapped,
+    estimate_cells, generate_wrapped,
 };
 use nalgebra::Vector3;
 
@@ -15,7 +15,7 @@ use crate::contact::{Gaps, PlanarGaps};
 use crate::coupling::BodyShapes;
 use crate::gait::{DeformedOutline, WavingSheet};
 use crate::motion::{Fresh, RigidMove, needs_remesh};
-use crate::motion::{Meshed, PosesByShift, RemeshError, RestPlace, Scene};
+use crate::motion::{Meshed, MostCells, PosesByShift, RemeshError, RestPlace, Scene};
 
 /// Domain and bodies as they were meshed.
 #[derive(Debug)]
@@ -198,6 +198,7 @@ impl Scene<2> for PlanarScene {
         poses: &[Pose],
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
+        most: MostCells,
     ) -> Result<Meshed<2>, RemeshError> {
         if self.case.is_given {
             return Err(RemeshError::Given);
@@ -205,7 +206,9 @@ impl Scene<2> for PlanarScene {
         let case = Arc::clone(&self.case);
         let mut shapes = shapes_at(&case, poses, shapes);
         let shifts = move_into(&case.domain, &mut shapes);
+        most.check_before(|limit| estimate_cells(&case.domain, &shapes, &case.sizing, limit))?;
         let mesh = generate_wrapped(&case.domain, &shapes, &case.sizing)?;
+        most.check(&mesh)?;
         let poses = shifted(&shifts);
         let scene = Self::new(case, &mesh, shapes, &poses)?;
         Ok(Meshed { mesh, scene: Box::new(scene), poses, shifts })

@@ -6,6 +6,7 @@ mod series;
 
 use std::collections::BTreeMap;
 
+use alewife_interrupt::check;
 use alewife_mesh::{Mesh, Point};
 use serde::{Deserialize, Serialize};
 
@@ -163,7 +164,7 @@ impl<const D: usize> SavedState<D> {
         };
         let moving = simulation.moving_mesh.as_ref();
         let unknown_frame = simulation.scheme.unknown_frame;
-        simulation.work.system = fluid_system(problem, &state, moving, unknown_frame)?;
+        simulation.work.system = fluid_system(problem, &state, moving, unknown_frame, check)?;
         simulation.work.system.recall(self.solver.clone()).map_err(ResumeError::from)?;
         simulation.work.mesh = state.mesh.clone();
         simulation.control = self.control.clone();

@@ -34,7 +34,9 @@ impl CaseMesh<3> for Dimension<3> {
         let (mut solids, sizing) = (solids(model)?, sizing(case));
         let domain = case.domain_in_space().ok_or_else(|| no_domain(case))?;
         let shifts = move_into(&domain, &mut solids);
-        check_cells::<3>(|limit| estimate_cells(&domain, &solids, &sizing, limit))?;
+        check_cells::<3>(case.mesh.max_cells, |limit| {
+            estimate_cells(&domain, &solids, &sizing, limit)
+        })?;
         let mesh = generate(&domain, &solids, &sizing)?;
         Ok(initial(mesh, shifts))
     }

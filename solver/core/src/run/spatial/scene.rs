@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use alewife_mesh::spatial::{GapQuery, generate};
+use alewife_mesh::spatial::{GapQuery, estimate_cells, generate};
 use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
@@ -13,7 +13,7 @@ use crate::contact::{Gaps, SpatialGaps, frame_of};
 use crate::coupling::BodyShapes;
 use crate::gait::MaterialPoint;
 use crate::motion::{Fresh, needs_remesh};
-use crate::motion::{Meshed, PosesByShift, RemeshError, Scene};
+use crate::motion::{Meshed, MostCells, PosesByShift, RemeshError, Scene};
 
 /// Domain and bodies as they were meshed.
 #[derive(Debug)]
@@ -114,6 +114,7 @@ impl Scene<3> for SpatialScene {
         poses: &[Pose],
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
+        most: MostCells,
     ) -> Result<Meshed<3>, RemeshError> {
         let case = &self.case;
         if case.is_given {
@@ -121,7 +122,9 @@ impl Scene<3> for SpatialScene {
         }
         let mut solids = case.solids_at(poses, shapes);
         let shifts = move_into(&case.domain, &mut solids);
+        most.check_before(|limit| estimate_cells(&case.domain, &solids, &case.sizing, limit))?;
         let mesh = generate(&case.domain, &solids, &case.sizing)?;
+        most.check(&mesh)?;
         let poses = shifted(&shifts);
         let scene = Self::new(Arc::clone(case), &mesh, &poses, shapes)?;
         Ok(Meshed { mesh, scene: Box::new(scene), poses, shifts })

@@ -8,19 +8,26 @@ use alewife_interrupt::{Listener, Stopped, hearing};
 use super::super::dense::{LONG, Panel, PanelShape, columns_at_once};
 use super::*;
 
+/// What a factorisation came to.
+struct Tried {
+    result: Result<(), NoFactors>,
+    /// How often it asked.
+    asked: usize,
+}
+
 /// Factorises, hearing a request that is made from some question on, and counts the questions.
 fn factorised(
     factors: &mut Factors,
     analysis: &Analysis,
     matrix: &SparseMatrix,
     made_at: usize,
-) -> (Result<(), NoFactors>, usize) {
+) -> Tried {
     let asked = Arc::new(AtomicUsize::new(0));
     let counted = Arc::clone(&asked);
     let request = move || counted.fetch_add(1, Atomic::Relaxed) + 1 >= made_at;
     let heard = hearing(Arc::new(request), || factors.factorise(analysis, matrix));
     assert_eq!(heard.was_ended, heard.result.is_err());
-    (heard.result, asked.load(Atomic::Relaxed))
+    Tried { result: heard.result, asked: asked.load(Atomic::Relaxed) }
 }
 
 #[test]
@@ -36,11 +43,12 @@ fn a_factorisation_ends_wherever_it_is_asked_to() {
             factors.solve(&analysis, &mut x);
             x
         };
-        assert_eq!(factorised(&mut factors, &analysis, &system.matrix, usize::MAX).0, Ok(()));
+        assert_eq!(factorised(&mut factors, &analysis, &system.matrix, usize::MAX).result, Ok(()));
         let expected = solved(&mut factors);
         let mut n_stopped = 0;
         for made_at in 1..100 {
-            let (result, asked) = factorised(&mut factors, &analysis, &system.matrix, made_at);
+            let Tried { result, asked } =
+                factorised(&mut factors, &analysis, &system.matrix, made_at);
             if asked < made_at {
                 assert_eq!(result, Ok(()));
                 break;
