@@ -14,4 +14,5 @@ mod reciprocity;
 mod rods;
 mod rods_balance;
 mod rods_of_cases;
+mod rods_on_bodies;
 mod rods_relax;
