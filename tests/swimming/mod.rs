@@ -14,5 +14,4 @@ mod reciprocity;
 mod rods;
 mod rods_balance;
 mod rods_of_cases;
-mod rods_on_bodies;
 mod rods_relax;
