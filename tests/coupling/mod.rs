@@ -11,6 +11,7 @@ mod magnets;
 mod mean_flow;
 mod periodic_given;
 mod profiles;
+mod rods_on_bodies;
 mod sides;
 mod step_errors;
 mod threads;

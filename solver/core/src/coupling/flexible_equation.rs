@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::structure::Flexible;
+use super::turning_base::TurningBase;
+use crate::structure::{Flexible, Tangents};
 
 /// Roundings of a number that inner forces are made of.
 const ROUNDINGS: f64 = 16.0;
@@ -27,8 +28,18 @@ pub struct FlexibleEquation {
     pub unmoved: DVector<f64>,
     /// Change of the coordinates by the velocities (s).
     pub coefficient: f64,
+    /// An end that turns with the body it is clamped to.
+    pub base: Option<TurningBase>,
     /// When (s).
     pub time: f64,
+}
+
+/// A body with coordinates at rates of these.
+struct BodyAtRates {
+    /// Coordinates that are linear in the rates, and the rates.
+    linear: [DVector<f64>; 2],
+    /// Those with its end as it is turned.
+    turned: [DVector<f64>; 2],
 }
 
 impl FlexibleEquation {
@@ -42,37 +53,61 @@ impl FlexibleEquation {
             history: DVector::zeros(coordinates.len()),
             unmoved: DVector::from_column_slice(coordinates),
             coefficient: 0.0,
+            base: None,
             time,
         }
     }
 
-    /// The rates of its coordinates among those of all bodies.
-    fn own(&self, rates: &[f64]) -> DVector<f64> {
-        DVector::from_column_slice(&rates[self.first..self.first + self.unmoved.len()])
+    /// The body at these rates of all coordinates.
+    fn at(&self, rates: &[f64]) -> BodyAtRates {
+        let own = &rates[self.first..self.first + self.unmoved.len()];
+        let velocities = DVector::from_column_slice(own);
+        let coordinates = &self.unmoved + &velocities * self.coefficient;
+        let linear = [coordinates, velocities];
+        let turned = match &self.base {
+            Some(base) => [base.coordinates(&linear[0]), base.rates(&linear[0], &linear[1])],
+            None => linear.clone(),
+        };
+        BodyAtRates { linear, turned }
+    }
+
+    fn forces(&self, [coordinates, velocities]: &[DVector<f64>; 2]) -> DVector<f64> {
+        self.body.forces(coordinates, velocities, self.time)
+    }
+
+    fn tangents(&self, [coordinates, velocities]: &[DVector<f64>; 2]) -> Tangents {
+        self.body.tangents(coordinates, velocities, self.time)
     }
 
     /// What it lacks to balance the loads of the fluid at these rates of all coordinates.
     pub(super) fn residual(&self, rates: &[f64]) -> DVector<f64> {
-        let velocities = self.own(rates);
-        let coordinates = &self.unmoved + &velocities * self.coefficient;
-        let forces = self.body.forces(&coordinates, &velocities, self.time);
+        let BodyAtRates { linear, turned } = self.at(rates);
+        let forces = self.forces(&turned);
+        let forces = match &self.base {
+            Some(base) => base.forces(&linear[0], &forces),
+            None => forces,
+        };
+        let [_, velocities] = linear;
         self.body.mass() * (velocities * self.rate + &self.history) + forces
     }
 
     /// The rounding of what it lacks: inner forces are differences of large numbers where it is stiff.
     pub(super) fn rounding(&self, rates: &[f64]) -> DVector<f64> {
-        let velocities = self.own(rates);
-        let coordinates = &self.unmoved + &velocities * self.coefficient;
-        let stiffness = self.body.tangents(&coordinates, &velocities, self.time).stiffness;
-        stiffness.abs() * coordinates.abs() * (ROUNDINGS * f64::EPSILON)
+        let turned = self.at(rates).turned;
+        let stiffness = self.tangents(&turned).stiffness;
+        stiffness.abs() * turned[0].abs() * (ROUNDINGS * f64::EPSILON)
     }
 
     /// How that depends on the rates.
     pub(super) fn tangent(&self, rates: &[f64]) -> DMatrix<f64> {
-        let velocities = self.own(rates);
-        let coordinates = &self.unmoved + &velocities * self.coefficient;
-        let tangents = self.body.tangents(&coordinates, &velocities, self.time);
-        let stiffness = tangents.stiffness * self.coefficient;
-        self.body.mass() * self.rate + stiffness + tangents.damping
+        let BodyAtRates { linear, turned } = self.at(rates);
+        let Tangents { stiffness, damping } = self.tangents(&turned);
+        let inertia = self.body.mass() * self.rate;
+        let Some(base) = &self.base else {
+            return inertia + stiffness * self.coefficient + damping;
+        };
+        let forces = self.forces(&turned);
+        let coefficient = self.coefficient;
+        inertia + base.tangent(linear.each_ref(), &forces, [&stiffness, &damping], coefficient)
     }
 }

@@ -17,6 +17,7 @@ mod shapes;
 mod solution;
 mod surface;
 mod system;
+mod turning_base;
 mod uniform_flows;
 
 pub use boundaries::{Boundaries, BoundaryNode};
@@ -46,3 +47,4 @@ pub use shapes::{BodyShapes, ShapeError};
 pub use solution::Solution;
 pub use surface::{MovingSurface, RestPlaces};
 pub use system::{Configuration, FluidSystem, MeshedBodies, ResidualAt};
+pub use turning_base::TurningBase;

@@ -8,10 +8,10 @@ use nalgebra::DVector;
 
 use super::error::StepError;
 use super::stepper::{Step, TimeStepper};
-use crate::body::{Inertia, Pose, RigidVector, Twist, carried_velocity};
+use crate::body::{Inertia, Orientation, Pose, RigidVector, Twist, carried_velocity};
 use crate::coupling::{
     AttachedCoordinate, BodyShapes, FlexibleEquation, PosesByVelocity, Problem, RigidBody,
-    RigidBodyEquations, ShapeError, Solution,
+    RigidBodyEquations, ShapeError, Solution, TurningBase,
 };
 use crate::state::State;
 use crate::structure::Held;
@@ -218,6 +218,7 @@ impl<const D: usize> StepHistory<D> {
                 history: DVector::from_column_slice(&self.coordinate_derivative[own.clone()]),
                 unmoved: DVector::from_column_slice(&unmoved[own]),
                 coefficient: 1.0 / bdf.next,
+                base: turning_base(body, poses),
                 time,
             })
         };
@@ -249,6 +250,16 @@ impl<const D: usize> StepHistory<D> {
         let rate =
             |(new, (now, before)): (&f64, (&f64, &f64))| self.step.bdf.rate(*new, *now, *before);
         rates.iter().zip(levels).map(rate).collect()
+    }
+}
+
+/// The end of a body that is clamped to another one in the plane, with that at its pose.
+fn turning_base(body: &RigidBody, poses: &[Pose]) -> Option<TurningBase> {
+    let attachment = body.attachment.as_ref()?;
+    let to = &poses[attachment.to];
+    match to.orientation {
+        Orientation::Planar(_) => TurningBase::new(&attachment.coordinates, &body.pose, to),
+        Orientation::Spatial(_) => None,
     }
 }
 

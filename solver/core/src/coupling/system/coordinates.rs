@@ -14,6 +14,12 @@ impl<const D: usize> FluidSystem<D> {
         self.rate_response.is_kept()
     }
 
+    /// Whether rates of coordinates were found to the rounding of a large change only: a further system leads on from there.
+    #[must_use]
+    pub fn has_rounded_rates(&self) -> bool {
+        self.rate_response.is_rounding
+    }
+
     /// Has the next system take the derivatives of the equations of coordinates again.
     pub fn renew_tangents(&mut self) {
         self.rate_response = RateResponse::default();
@@ -29,18 +35,17 @@ impl<const D: usize> FluidSystem<D> {
     ) {
         let equations = CoordinateEquations::new(&at.bodies.flexible, at.constraints, &self.layout);
         let unknowns = &equations.unknowns;
-        let RateResponse { tangents, factorised } = &self.rate_response;
-        let Some(Factorised { inverse, .. }) = factorised else { return };
+        let Some(factorised) = &self.rate_response.factorised else { return };
         let own = |all: &[f64]| {
             DVector::from_iterator(unknowns.len(), unknowns.iter().map(|at| all[*at]))
         };
         let linear = own(free);
         let start = &linear - own(by_system);
-        let Some(beyond) = equations.beyond_linear([&start, &linear], tangents, inverse) else {
-            return;
-        };
+        let beyond = equations.beyond_linear([&start, &linear], factorised);
+        self.rate_response.is_rounding = beyond.as_ref().is_some_and(|found| found.is_rounding);
+        let Some(beyond) = beyond else { return };
         let mut change = vec![0.0; free.len()];
-        for (unknown, force) in unknowns.iter().zip(beyond.iter()) {
+        for (unknown, force) in unknowns.iter().zip(beyond.forces.iter()) {
             change[*unknown] = -force;
         }
         if self.linear.substitute(&mut change, timing) {
@@ -58,24 +63,23 @@ impl<const D: usize> FluidSystem<D> {
         timing: &mut Timing,
     ) -> Result<(), SolveError> {
         let has_coordinates = !at.bodies.flexible.is_empty() && self.nullspace.is_none();
-        // A stiff one on a body that starts from rest may lead away from there
-        let is_attached = at.problem.bodies.iter().any(|body| body.attachment.is_some());
-        if !has_coordinates || is_attached || !self.linear.is_factorised() {
+        if !has_coordinates || !self.linear.is_factorised() {
             return Ok(());
         }
-        let unknowns =
-            CoordinateEquations::new(&at.bodies.flexible, at.constraints, &self.layout).unknowns;
+        let equations = CoordinateEquations::new(&at.bodies.flexible, at.constraints, &self.layout);
+        let unknowns = &equations.unknowns;
         if unknowns.is_empty() {
             return Ok(());
         }
-        let inverse = self.linear.inverse_of(&unknowns, timing)?;
+        let derivatives = equations.reduced(self.rate_response.tangents());
+        let inverse = self.linear.inverse_of(unknowns, timing)?;
         let inverse = DMatrix::from_column_slice(unknowns.len(), unknowns.len(), &inverse);
         let source = at.problem.is_enclosed().then(|| {
             let mut answer = at.constraints.restrict(&self.unit_source());
             self.linear.substitute(&mut answer, timing);
             answer
         });
-        self.rate_response.factorised = Some(Factorised { inverse, source });
+        self.rate_response.factorised = Some(Factorised { inverse, derivatives, source });
         Ok(())
     }
 }

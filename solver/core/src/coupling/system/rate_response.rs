@@ -16,9 +16,13 @@ use crate::algebra::{AffineConstraints, Term};
 use crate::space::DofLayout;
 
 /// Most iterations for the rates of coordinates.
-const MOST_ITERATIONS: usize = 12;
+const MOST_ITERATIONS: usize = 20;
 /// Change of the rates over their size that ends them: the next one is of its square.
 const CONVERGED: f64 = 1e-9;
+/// The same where it does not fall any more: what G rounds to times a large stiffness. The next system starts from there.
+const ROUNDING: f64 = 1e-5;
+/// A part of the last change that is no progress any more.
+const NO_PROGRESS: f64 = 0.5;
 
 /// Derivatives of the equations of coordinates, and how their rates answer to forces.
 #[derive(Debug, Default)]
@@ -27,6 +31,8 @@ pub(super) struct RateResponse {
     pub tangents: Vec<DMatrix<f64>>,
     /// With the last factors that these are in.
     pub factorised: Option<Factorised>,
+    /// Whether the last rates were found to rounding only.
+    pub is_rounding: bool,
 }
 
 /// What is known from factors.
@@ -34,6 +40,9 @@ pub(super) struct RateResponse {
 pub(super) struct Factorised {
     /// The block of the inverse in the unknowns that rates depend on.
     pub inverse: DMatrix<f64>,
+    /// The derivatives that are in them, by these unknowns: where bodies turn on which others are fixed, the same
+    /// derivatives are others by the unknowns of a later system.
+    pub derivatives: DMatrix<f64>,
     /// The flow that a source makes which is spread over an enclosed fluid.
     pub source: Option<Vec<f64>>,
 }
@@ -43,7 +52,7 @@ impl RateResponse {
     pub(super) fn keep_tangents(&mut self, equations: &[FlexibleEquation], rates: &[f64]) {
         if self.tangents.len() != equations.len() {
             let tangents = equations.iter().map(|equation| equation.tangent(rates));
-            *self = Self { tangents: tangents.collect(), factorised: None };
+            *self = Self { tangents: tangents.collect(), ..Self::default() };
         }
     }
 
@@ -63,11 +72,12 @@ impl RateResponse {
     }
 }
 
-/// An entry of a matrix.
-struct Entry {
-    row: usize,
-    column: usize,
-    value: f64,
+/// What is beyond the linear equations.
+pub(super) struct Beyond {
+    /// Forces on the unknowns.
+    pub forces: DVector<f64>,
+    /// Whether they are as exact as rounding allows, and not more.
+    pub is_rounding: bool,
 }
 
 /// The equations of the coordinates of all bodies in the unknowns y that they depend on.
@@ -127,25 +137,22 @@ impl<'a> CoordinateEquations<'a> {
         lack
     }
 
-    /// Derivatives by the unknowns that are not zero, from those by all rates, body by body.
-    fn reduced(&self, tangents: &[DMatrix<f64>]) -> Vec<Entry> {
-        let mut entries = Vec::new();
+    /// Derivatives by the unknowns, from those by all rates, body by body.
+    pub fn reduced(&self, tangents: &[DMatrix<f64>]) -> DMatrix<f64> {
+        let mut reduced = DMatrix::zeros(self.unknowns.len(), self.unknowns.len());
         for (equation, tangent) in self.equations.iter().zip(tangents) {
             let own = &self.rates[equation.first..equation.first + tangent.nrows()];
             for (column, (by, _)) in tangent.column_iter().zip(own) {
                 for (value, (of, _)) in column.iter().zip(own).filter(|(value, _)| **value != 0.0) {
                     for (j, right) in by {
-                        let entry = |(i, left): &(usize, f64)| Entry {
-                            row: *i,
-                            column: *j,
-                            value: left * value * right,
-                        };
-                        entries.extend(of.iter().map(entry));
+                        for (i, left) in of {
+                            reduced[(*i, *j)] += left * value * right;
+                        }
                     }
                 }
             }
         }
-        entries
+        reduced
     }
 
     fn tangents(&self, y: &DVector<f64>) -> Vec<DMatrix<f64>> {
@@ -157,37 +164,45 @@ impl<'a> CoordinateEquations<'a> {
     pub fn beyond_linear(
         &self,
         [start, linear]: [&DVector<f64>; 2],
-        kept: &[DMatrix<f64>],
-        inverse: &DMatrix<f64>,
-    ) -> Option<DVector<f64>> {
+        factorised: &Factorised,
+    ) -> Option<Beyond> {
+        let Factorised { inverse, derivatives, .. } = factorised;
         let at_start = self.lack(start);
-        let derivatives = self.reduced(kept);
         let beyond = |y: &DVector<f64>| {
             let mut beyond = self.lack(y) - &at_start;
-            for Entry { row, column, value } in &derivatives {
-                beyond[*row] -= value * (y[*column] - start[*column]);
-            }
+            for_each_entry(derivatives, |row, column, value| {
+                beyond[row] -= value * (y[column] - start[column]);
+            });
             beyond
         };
-        let mut y = linear.clone();
+        let (mut y, mut last) = (linear.clone(), f64::INFINITY);
         for _ in 0..MOST_ITERATIONS {
             let off = &y - linear + inverse * beyond(&y);
-            let mut changed = self.tangents(&y);
-            changed.iter_mut().zip(kept).for_each(|(tangent, kept)| *tangent -= kept);
+            let changed = self.reduced(&self.tangents(&y)) - derivatives;
             let mut by_rates = DMatrix::identity(y.len(), y.len());
-            for Entry { row, column, value } in self.reduced(&changed) {
+            for_each_entry(&changed, |row, column, value| {
                 by_rates.column_mut(column).axpy(value, &inverse.column(row), 1.0);
-            }
+            });
             let change = by_rates.lu().solve(&off)?;
             y -= &change;
             let relative = change.amax() / y.amax().max(f64::MIN_POSITIVE);
             if !relative.is_finite() {
                 return None;
             }
-            if relative <= CONVERGED {
-                return Some(beyond(&y));
+            let is_rounding = relative <= ROUNDING && relative > NO_PROGRESS * last;
+            if relative <= CONVERGED || is_rounding {
+                return Some(Beyond { forces: beyond(&y), is_rounding });
             }
+            last = relative;
         }
         None
+    }
+}
+
+/// Calls with row, column and value of the entries that are not zero.
+fn for_each_entry(matrix: &DMatrix<f64>, mut call: impl FnMut(usize, usize, f64)) {
+    for (column, values) in matrix.column_iter().enumerate() {
+        let entries = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
+        entries.for_each(|(row, value)| call(row, column, *value));
     }
 }

@@ -8,6 +8,7 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::case::{
     Activation, AlongBody, Body, Case, FlowModel, Hold, Model, RestShape, RodSpec, Stroke,
+    TimeSettings,
 };
 use crate::coupling::{Attachment, BodyVector, OnBody, RigidBody};
 use crate::gait::{FlexibleShape, ShapeMotion};
@@ -20,6 +21,9 @@ use crate::run::RunError;
 /// Half width over the largest one below which a body is as stiff as there: ends close in points, which would bend at
 /// no cost.
 const ENDS: f64 = 0.1;
+
+/// Stretching stiffness over the drag of a length in a step from which on a rod keeps its length.
+const ENOUGH: f64 = 1e9;
 
 /// The shape of a planar body that is a rod, which starts from its shape without loads; `None` of one that is none.
 ///
@@ -79,7 +83,9 @@ fn properties(case: &Case, body: &Body, spec: &RodSpec, profile: &Profile) -> Pl
         rod: RodProperties {
             length,
             elements,
-            stretching: spec.stretching.unwrap_or(RodProperties::stiff(stiffest, length)),
+            stretching: spec.stretching.unwrap_or_else(|| {
+                RodProperties::stiff(stiffest, length).min(stiff_enough(case, length))
+            }),
             damping: spec.damping,
             mass: Along::function(move |along| density * mass(along).area()),
             section_inertia: Along::function(move |along| density * turning(along).turning()),
@@ -93,6 +99,22 @@ fn properties(case: &Case, body: &Body, spec: &RodSpec, profile: &Profile) -> Pl
             },
         },
     }
+}
+
+/// Tension over stretch (N/m) of a rod of a length (m) that no flow of this case stretches notably, as it moves by less than
+/// its length in a step: with more of it the drag would be lost in the rounding of the tension.
+fn stiff_enough(case: &Case, length: f64) -> f64 {
+    let TimeSettings::Unsteady(unsteady) = &case.time else { return f64::INFINITY };
+    let step = match &unsteady.adaptive {
+        Some(adaptive) => adaptive.largest.unwrap_or(0.1 * unsteady.end),
+        None => unsteady.step,
+    };
+    let inertia = match case.fluid.model {
+        FlowModel::Stokes => 0.0,
+        FlowModel::UnsteadyStokes | FlowModel::NavierStokes => case.fluid.density,
+    };
+    let drag = case.fluid.viscosity.reference(step.recip()) + inertia * length * length / step;
+    ENOUGH * drag * length / step
 }
 
 fn stiffness(spec: &RodSpec, profile: &Profile) -> Along {

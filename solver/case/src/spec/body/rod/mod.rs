@@ -23,7 +23,7 @@ pub struct RodSpec {
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub young: Option<f64>,
     /// Tension over stretch (N; N/m planar); 1e7 times bending stiffness over squared length if absent, which keeps the
-    /// length.
+    /// length, at most 1e9 times the drag of what moves by that length in a step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub stretching: Option<f64>,
