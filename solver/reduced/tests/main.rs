@@ -5,6 +5,7 @@ mod gradients;
 mod kept_volumes;
 mod searches;
 mod shipped;
+mod surfaces;
 mod swimmers;
 mod tree;
 mod twin;

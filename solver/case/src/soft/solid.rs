@@ -16,7 +16,7 @@ use crate::spec::number::{NonNegative, Positive};
 pub struct SoftSolid {
     /// Its name.
     pub name: String,
-    /// A shape of the plane: disc, ellipse, spline, fish, flagellate or tube, with its origin at 0.
+    /// A shape of the plane: disc, ellipse, spline, fish, flagellate or tube; in space a surface; with its origin at 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<ShapeSpec>,
     /// A polygon, in space a plate of its form.
