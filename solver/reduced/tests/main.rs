@@ -3,6 +3,7 @@
 mod cases;
 mod gradients;
 mod kept_volumes;
+mod rigid_parts;
 mod searches;
 mod shipped;
 mod surfaces;

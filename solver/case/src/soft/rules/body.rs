@@ -23,6 +23,10 @@ pub fn check(mistakes: &mut Mistakes<'_>) {
         let key = format!("solid.0.part.{n}.material");
         material(mistakes, &key, solid.order, &part.material);
     }
+    for (n, rigid) in solid.rigid.iter().enumerate() {
+        region(mistakes, &format!("solid.0.rigid.{n}.region"), &rigid.region);
+        mistakes.positive(&format!("solid.0.rigid.{n}.density"), rigid.density);
+    }
     for (n, one) in solid.fibre.iter().enumerate() {
         fibre(mistakes, &format!("solid.0.fibre.{n}"), one);
     }
