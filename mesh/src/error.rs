@@ -1,5 +1,6 @@
 //! `MeshError`: every way a mesh can be refused, with the numbers and a remedy.
 
+use alewife_interrupt::Stopped;
 use thiserror::Error;
 
 use crate::CellId;
@@ -8,7 +9,7 @@ use crate::CellId;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// It was asked to end ([`crate::interrupt`]).
+    /// It was asked to end ([`alewife_interrupt`]).
     #[error("meshing was asked to end")]
     Stopped,
     /// A size of the domain is zero, negative or not finite.
@@ -247,6 +248,12 @@ pub enum MeshError {
         /// Where.
         index: usize,
     },
+}
+
+impl From<Stopped> for MeshError {
+    fn from(_: Stopped) -> Self {
+        Self::Stopped
+    }
 }
 
 /// Coordinates in brackets.

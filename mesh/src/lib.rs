@@ -9,7 +9,6 @@ mod check;
 mod count;
 mod error;
 mod hole;
-pub mod interrupt;
 mod locate;
 mod mesh;
 mod msh;
@@ -26,6 +25,7 @@ mod surface;
 mod test_meshes;
 mod vtu;
 
+pub(crate) use alewife_interrupt as interrupt;
 pub use box_tree::{Bounds, BoxTree};
 pub use check::check_mesh;
 pub use error::MeshError;
@@ -43,10 +43,10 @@ pub use msh::{
 pub use number::whole;
 pub use planar::{
     Closest, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline, PlacedShape,
-    Profile, SMALLEST_GAP, SecondMoments, Shape, SizeField, Spline, Station, Triangles, TubeForm,
-    Wall, check_placement, check_wrapped_placement, closest, closest_features, closest_to_wall,
-    estimate_cells, generate, generate_wrapped, on_meridian, overlap, points_of_outline, thickness,
-    triangulate_inside, wall_features,
+    Profile, SMALLEST_GAP, Scattered, SecondMoments, Shape, Shares, SizeField, Spline, Station,
+    Triangles, TubeForm, Wall, check_placement, check_wrapped_placement, closest, closest_features,
+    closest_to_wall, estimate_cells, generate, generate_wrapped, on_meridian, overlap,
+    points_of_outline, thickness, triangulate_inside, wall_features,
 };
 pub use quadrature::GaussRule;
 pub use quality::{CellQuality, Quality, WorstCell};

@@ -2,6 +2,7 @@
 
 mod closest;
 mod common;
+mod interrupted;
 mod msh;
 mod polygons;
 mod properties;

@@ -75,8 +75,13 @@ def shell(n_around: int, n_across: int, radii: tuple[float, float], end: float) 
     return np.column_stack([radius * np.cos(angle), radius * np.sin(angle)]), cells
 
 
-def written(path: Path, frames: list[tuple[float, Array, Array, Array, Array]], top: str) -> Run:
-    """A run of frames: time, nodes, cells, velocity and pressure of each."""
+def written(
+    path: Path,
+    frames: list[tuple[float, Array, Array, Array, Array]],
+    top: str,
+    scalars: dict[str, Callable[[Array], Array]] | None = None,
+) -> Run:
+    """A run of frames: time, nodes, cells, velocity and pressure of each; scalars by place."""
     import pyvista
 
     (path / "fields").mkdir(parents=True)
@@ -88,6 +93,8 @@ def written(path: Path, frames: list[tuple[float, Array, Array, Array, Array]], 
         grid.point_data["velocity"] = np.hstack([velocity, flat])
         grid.point_data["pressure"] = pressure
         grid.point_data["vorticity"] = np.zeros(len(nodes)) if d == 2 else np.zeros((len(nodes), 3))
+        for name, of_place in (scalars or {}).items():
+            grid.point_data[name] = of_place(nodes)
         grid.field_data["TimeValue"] = [time]
         grid.save(path / f"fields/{nth:06}.vtu")
         sets += f'<DataSet timestep="{time}" part="0" file="fields/{nth:06}.vtu"/>'

@@ -27,7 +27,8 @@ pub fn sources(folder: &str) -> BTreeMap<String, String> {
 }
 
 /// Source folders of all crates, but for the extension module of Python, whose signatures are those of Python.
-pub const CRATES: [&str; 8] = [
+pub const CRATES: [&str; 9] = [
+    "interrupt/src",
     "mesh/src",
     "solver/case/src",
     "solver/core/src",

@@ -10,6 +10,7 @@ mod loads;
 mod magnets;
 mod mean_flow;
 mod periodic_given;
+mod profiles;
 mod sides;
 mod step_errors;
 mod threads;

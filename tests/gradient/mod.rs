@@ -185,7 +185,7 @@ const BOX: &str = r#"
     fluid = { model = "stokes", viscosity = 2.0, density = 1.0 }
     domain.box = { min = [-2.0, -2.0, -2.0], max = [2.0, 2.0, 2.0] }
     boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip", back = "no-slip", front = "no-slip" }
-    mesh = { size = 1.5, surface = 0.7 }
+    mesh = { size = 2.0, surface = 0.9, gap_layers = 1 }
     time.steady = {}
     [[body]]
     name = "ball"

@@ -214,14 +214,16 @@ fn solved_both_ways(matrices: &Matrices, difference: f64) -> Result<bool, String
     let mut b = vec![0.0; latest.n()];
     latest.multiply(&exact, &mut b);
     let off = |x: &[f64]| largest(x.iter().zip(&exact).map(|(x, exact)| x - exact)) / CORRECTION;
-    let mut direct = DirectSolver::new(latest.pattern(), unknowns);
+    let mut direct =
+        DirectSolver::new(&latest.shared_pattern(), unknowns).map_err(|error| error.to_string())?;
     direct.set_up(latest).map_err(|error| error.to_string())?;
     let mut x = b.clone();
     let accuracy = direct.solve(latest, &mut x).map_err(|error| error.to_string())?;
     if accuracy.residual > RESIDUAL || accuracy.refinements > 1 || off(&x) > DIFFERENCE {
         return Err(format!("by new factors: {accuracy:?}, off by {:.1e}", off(&x)));
     }
-    let mut iterative = DirectSolver::new(earlier.pattern(), unknowns);
+    let mut iterative = DirectSolver::new(&earlier.shared_pattern(), unknowns)
+        .map_err(|error| error.to_string())?;
     iterative.set_up(earlier).map_err(|error| error.to_string())?;
     let mut y = b.clone();
     let solved = iterative.solve_with_earlier_set_up(latest, &mut y, &typical);

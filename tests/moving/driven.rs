@@ -103,7 +103,7 @@ fn spheres_are_driven_on_the_axis_and_in_space() {
             fluid = {{ model = "stokes", viscosity = 1.0 }}
             domain.{domain}.radius = 4.0
             boundary.wall = "no-slip"
-            mesh = {{ size = 2.0, surface = 0.4 }}
+            mesh = {{ size = 2.0, surface = 0.6 }}
             time.unsteady = {{ step = 0.05, end = 0.5 }}
             [[body]]
             name = "s"

@@ -78,7 +78,7 @@ fn hinge(direction: f64, n_steps: usize) -> Model {
         fluid = {{ model = "navier-stokes", viscosity = 1.0, density = 1.0, gravity = [0.3, -0.4, 0.5] }}
         domain.sphere.radius = 2.5
         boundary.wall = "no-slip"
-        mesh = {{ size = 2.0, surface = 0.8, growth = 1.0, gap_layers = 1 }}
+        mesh = {{ size = 2.0, surface = 1.0, growth = 1.0, gap_layers = 1 }}
         time.unsteady = {{ step = 0.02, end = {end}, scheme = "bdf1" }}
         body = [
             {{ name = "a", shape.ellipsoid.semi_axes = [0.6, 0.5, 0.4], center = [0.9, 0.1, 0.0], density = 2.0, motion = "free", torque = [4.0, 0.0, 0.0] }},

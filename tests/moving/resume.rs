@@ -105,8 +105,8 @@ fn a_body_in_space_ends_with_the_same_bits() {
         fluid = { model = "navier-stokes", viscosity = 1.0, density = 1.0, gravity = [120.0, 40.0, -80.0] }
         domain.sphere = { radius = 6.0 }
         boundary = { wall = "no-slip" }
-        mesh = { size = 3.0, surface = 0.6, growth = 0.6 }
-        time.unsteady = { step = 0.05, end = 0.4 }
+        mesh = { size = 3.0, surface = 0.9, growth = 1.0, gap_layers = 1 }
+        time.unsteady = { step = 0.05, end = 0.35 }
         [[body]]
         name = "body"
         shape.ellipsoid.semi_axes = [1.2, 0.9, 0.7]

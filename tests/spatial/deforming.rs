@@ -19,7 +19,7 @@ fn fish(body: &str, time: &str) -> String {
         fluid = {{ model = "navier-stokes", density = 1.0, viscosity = 0.05 }}
         domain.box = {{ min = [-1.1, -0.8, -0.8], max = [1.1, 0.8, 0.8] }}
         boundary = {{ left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip", back = "no-slip", front = "no-slip" }}
-        mesh = {{ size = 0.8, surface = 0.2, growth = 0.8, gap_layers = 1, scale = 1.2 }}
+        mesh = {{ size = 0.8, surface = 0.2, growth = 0.65, gap_layers = 1, scale = 1.5 }}
         time.unsteady = {{ {time} }}
         [[body]]
         name = "fish"
@@ -38,7 +38,7 @@ fn fish(body: &str, time: &str) -> String {
 fn force_and_torque_in_space_are_the_rates_of_momentum_and_angular_momentum() {
     let step = 0.03;
     let gait = "gait.carangiform = { period = 1.0, ramp = 0.5 }";
-    let case = case(&fish(gait, &format!("step = {step}, end = 0.24")));
+    let case = case(&fish(gait, &format!("step = {step}, end = 0.18")));
     let mesh = build_mesh::<3>(&case).expect("it is meshed");
     let problem = build_problem(&case, &mesh).expect("it is a problem");
     let body = &problem.bodies[0];

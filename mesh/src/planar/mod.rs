@@ -9,6 +9,7 @@ mod lattice;
 mod outline;
 mod placement;
 mod profile;
+mod scattered;
 mod shape;
 mod size_field;
 mod spline;
@@ -25,6 +26,7 @@ pub use generate::{Triangles, generate, generate_wrapped, points_of_outline, tri
 pub use outline::{Nearest, Outline};
 pub use placement::{SMALLEST_GAP, check_placement, check_wrapped_placement};
 pub use profile::{FishForm, FlagellateForm, Profile, Station, TubeForm};
+pub use scattered::{Scattered, Shares};
 pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
 pub use size_field::{SizeField, estimate_cells};
 pub use spline::Spline;

@@ -139,7 +139,7 @@ fn a_vessel_that_branches_keeps_the_edges_of_its_junction() {
     assert_eq!(names, ["inlet", "upper", "lower", "wall"]);
     let sides = groups.iter().enumerate().flat_map(|(nth, group)| vec![nth; group.n]).collect();
     let region = Region::new(mesh, names, sides, 20.0).expect("it is closed");
-    let mesh = meshed(&region, 0.45);
+    let mesh = meshed(&region, 0.55);
     assert!((mesh.measure() / region.volume() - 1.0).abs() < 2e-3);
     for (side, radius) in [(0, 1.0_f64), (1, 0.8), (2, 0.8)] {
         let off = area(&mesh, side).norm() / (PI * radius * radius) - 1.0;

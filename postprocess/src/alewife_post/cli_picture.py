@@ -172,9 +172,11 @@ def add_run(parser: argparse.ArgumentParser, *, are_several: bool = False) -> No
 
 def add_look(parser: argparse.ArgumentParser, quantities: tuple[str, ...]) -> None:
     """What is seen, and where from."""
+    known = ", ".join(quantities)
     parser.add_argument(
-        "--quantity", choices=quantities, help="speed, on surfaces pressure, if absent"
-    )
+        "--quantity", metavar="NAME",
+        help=f"{known}, or a scalar of the run; speed, on surfaces pressure, if absent",
+    )  # fmt: skip
     parser.add_argument(
         "--view",
         type=float,

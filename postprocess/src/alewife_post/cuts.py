@@ -9,7 +9,7 @@ import numpy as np
 
 from alewife_post import planes, tetrahedra
 from alewife_post.domains import domain_box, periods
-from alewife_post.fields import nodal_values
+from alewife_post.fields import MAGNITUDES, nodal_values
 from alewife_post.periodic import images
 from alewife_post.read import Field
 
@@ -93,7 +93,7 @@ def slice_of(field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
         return pyvista.PolyData()
     values = nodal_values(field, quantity)
     points, fine, cells = tetrahedra.pieces(field, near, values, HALVINGS)
-    if quantity != "pressure":
+    if quantity in MAGNITUDES:
         # A magnitude is not negative, though a quadratic between its values may be.
         fine = np.maximum(fine, 0.0)
     grid = pyvista.UnstructuredGrid({tetrahedra.STRAIGHT: cells}, points)

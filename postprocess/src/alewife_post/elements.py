@@ -120,6 +120,7 @@ def mirrored(field: Field) -> Field:
         pressure=joined(field.pressure, 1.0),
         vorticity=joined(field.vorticity, -1.0),
         derived=None if field.derived is None else joined(field.derived, 1.0),
+        scalars={name: joined(values, 1.0) for name, values in field.scalars.items()},
     )
 
 

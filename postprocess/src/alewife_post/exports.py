@@ -62,6 +62,8 @@ def _fluid(run: Run, field: Field, own: derived.Rates) -> pyvista.UnstructuredGr
     data["q"] = own.q
     data["divergence"] = own.divergence
     data["viscosity"] = derived.viscosity(run.case, own.shear_rate)
+    for name, values in field.scalars.items():
+        data[name] = values
     if not run.is_spatial:
         psi = stream_function(field, is_axisymmetric=run.is_axisymmetric)
         if psi is not None:

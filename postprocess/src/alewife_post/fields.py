@@ -15,6 +15,8 @@ from alewife_post.read import Field, Run
 Array = np.ndarray
 View = tuple[float, float, float, float]
 
+MAGNITUDES = ("speed", "vorticity", "shear-rate", "traction", "wall-shear")
+"""Quantities that are not negative, of the vorticity in space."""
 AT_REST = 1e-9
 """Largest speed over that of the fastest body at any time at which nothing flows any more."""
 
@@ -63,7 +65,10 @@ def nodal_values(field: Field, quantity: str) -> Array:
             return field.vorticity if field.vorticity.ndim == 1 else speed(field.vorticity)
         case "pressure":
             return field.pressure
+        case _ if quantity in field.scalars:
+            return field.scalars[quantity]
         case _ if field.derived is not None:
             return field.derived
         case _:
-            raise ValueError(f"{quantity} is no quantity of a flow: speed, pressure or vorticity")
+            known = ", ".join(["speed", "pressure", "vorticity", *field.scalars])
+            raise ValueError(f"{quantity} is no quantity of this flow; there are {known}")

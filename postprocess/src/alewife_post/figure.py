@@ -79,7 +79,7 @@ class _Part:
 
 def picture(
     run: Run,
-    quantity: Quantity = "speed",
+    quantity: Quantity | str = "speed",
     *,
     time: float | None = None,
     view: View | None = None,
@@ -97,15 +97,16 @@ def picture(
     With a body or swimmer to `follow` it is relative to that, or what is around it.
     `frame` names a body whose velocity is subtracted. Speed has streamlines unless `lines` says
     otherwise. An axisymmetric run is shown on both sides of its axis unless `mirror` is false.
-    Traction and wall shear are shown as coloured outlines of bodies and sides. `particles` is a
-    directory of paths that are drawn as well. `scale` has limits and a map of colours.
+    A scalar is a quantity by its name. Traction and wall shear are shown as coloured outlines of
+    bodies and sides. `particles` is a directory of paths that are drawn as well. `scale` has limits
+    and a map of colours.
     """
     asked = Shown(time, view, frame, follow, lines, mirror, painter, particles)
     return panels([(run, asked)], quantity, scale)
 
 
 def panels(
-    wanted: list[tuple[Run, Shown]], quantity: Quantity, scale: style.Scale = style.FREE
+    wanted: list[tuple[Run, Shown]], quantity: Quantity | str, scale: style.Scale = style.FREE
 ) -> Figure:
     """Pictures one below the other, or side by side where they are tall, with one scale for all."""
     style.use()
@@ -144,7 +145,7 @@ def panels(
 
 def _prepared(run: Run, asked: Shown, quantity: str) -> _Part:
     check_run(run, is_spatial=False, instead="slices.slice_picture, or space.surface_picture,")
-    checked.choice("quantity", quantity, QUANTITIES)
+    checked.choice("quantity", quantity, [*QUANTITIES, *run.scalars])
     if asked.lines is not None:
         checked.choice("lines", asked.lines, LINES)
     view = None if asked.view is None else checked.view(asked.view)

@@ -52,8 +52,14 @@ def pictures(
 
 
 def default_picture(run: Run) -> Figure:
-    """The scene of a run in space, of any other the picture `alewife-post picture` makes of it."""
-    return stills.scene_picture(run) if run.is_spatial else figure.picture(run, "speed")
+    """The scene of a run in space, of any other a picture in the plane.
+
+    It shows the first scalar, for whose sake a case has it, or the speed.
+    """
+    shown = next(iter(run.scalars), "speed")
+    if run.is_spatial:
+        return stills.scene_picture(run, quantity=shown)
+    return figure.picture(run, shown)
 
 
 def small_png(drawn: Figure) -> bytes:

@@ -1,8 +1,10 @@
-"""Surfaces of equal vorticity in space, and the value that shows most of it."""
+"""Surfaces of equal vorticity, speed or scalars in space, and the value that shows most."""
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,19 +26,25 @@ WITHIN = 50.0
 """Per cent of a quantity, by volume and over what is in view, that lies within its surface."""
 
 
-def parsed(text: str) -> tuple[str, float | None]:
-    """A quantity, and its value if it is asked for, written as `vorticity` or `vorticity=2.5`."""
-    found = re.fullmatch(r"\s*(\w+)\s*(?:=\s*([-+0-9.eE]+)\s*)?", text)
-    if found and found[1] in QUANTITIES:
+def parsed(text: str, scalars: Sequence[str] = ()) -> tuple[str, float | None]:
+    """A quantity, and its value if it is asked for, written as `vorticity` or `vorticity=2.5`.
+
+    `scalars` are those of the run, which have surfaces where their value is given.
+    """
+    found = re.fullmatch(r"\s*([\w.-]+)\s*(?:=\s*([-+0-9.eE]+)\s*)?", text)
+    if found:
         try:
             value = None if found[2] is None else float(found[2])
         except ValueError:
-            value = 0.0
-        if value is None or value > 0.0:
+            value = math.nan
+        if found[1] in QUANTITIES and (value is None or value > 0.0):
             return found[1], value
+        if found[1] in scalars and value is not None and math.isfinite(value):
+            return found[1], value
+    of_scalars = "".join(f", or {name}=0.5" for name in scalars)
     raise ValueError(
         f"{text} has no surface: write {' or '.join(QUANTITIES)}, or with a positive value, "
-        "such as vorticity=2.5"
+        f"such as vorticity=2.5{of_scalars}"
     )
 
 

@@ -44,9 +44,10 @@ def line(
 ) -> dict[str, Array]:
     """Flow along a straight line from `start` to `end` `(d,)`, at points evenly on it.
 
-    Columns `distance`, the coordinates, `velocity.x` and so on, `speed`, `pressure` and `vorticity`
-    (in space its magnitude), each `(points,)` and not a number outside of the fluid. With a `frame`
-    the velocity of that body is subtracted. Velocity is quadratic within cells, as it was computed.
+    Columns `distance`, the coordinates, `velocity.x` and so on, `speed`, `pressure`, `vorticity`
+    (in space its magnitude), and those of scalars by their names, each `(points,)` and not a number
+    outside of the fluid. With a `frame` the velocity of that body is subtracted. Velocity is
+    quadratic within cells, as it was computed.
     """
     check_run(run)
     flow = fields.flow_at(run, time, frame)
@@ -71,6 +72,7 @@ def line(
     if vorticity.ndim == 2:
         vorticity = np.linalg.norm(vorticity, axis=1)
     columns["vorticity"] = cells.at(found, vorticity)
+    columns |= {name: cells.at(found, values) for name, values in flow.scalars.items()}
     if not found.is_inside.any():
         raise ValueError("no point of the line is in the fluid")
     return columns

@@ -93,4 +93,8 @@ def joined(fields: list[Field]) -> Field:
             if fields[0].derived is None
             else np.concatenate([field.derived for field in fields])
         ),
+        scalars={
+            name: np.concatenate([field.scalars[name] for field in fields])
+            for name in fields[0].scalars
+        },
     )

@@ -30,7 +30,8 @@ def profile_figure(run: Run, columns: Mapping[str, Array], time: float) -> Figur
         axes.set_title(style.fitted(title(run, time), 4.0))
         return figure
     velocities = [name for name in columns if name.startswith("velocity.")]
-    panels = [velocities, ["pressure"], ["vorticity"]]
+    scalars = [[name] for name in run.scalars if name in columns]
+    panels = [velocities, ["pressure"], ["vorticity"], *scalars]
     figure, rows = series.stacked(len(panels), title(run, time))
     for axes, names in zip(rows, panels, strict=True):
         for name, colour in zip(names, series.line_colours(len(names)), strict=True):

@@ -8,7 +8,7 @@ import struct
 import tomllib
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -47,6 +47,8 @@ QUADRATIC_TRIANGLE = 22
 QUADRATIC_TETRAHEDRON = 24
 END_OF_FIELDS = b"</VTKFile>"
 """The last word of a field file."""
+OF_FLOW = {"velocity", "pressure", "vorticity"}
+"""Fields that every field file has."""
 ROUNDING = 1e-9
 """Times that differ by this part are the same: one was read from a text."""
 WRITTEN = (".alewife-run", "status.json", "provenance.json", "series.csv", "run.mcap", "fields.pvd")
@@ -82,6 +84,8 @@ class Field:
     """`(n_nodes,)`, counter-clockwise; in space `(n_nodes, 3)`."""
     derived: Array | None = None
     """Another quantity, made of these, `(n_nodes,)`."""
+    scalars: dict[str, Array] = field(default_factory=dict)
+    """What the flow carries, by its names, each `(n_nodes,)`."""
 
 
 @dataclass(frozen=True)
@@ -241,6 +245,11 @@ class Run:
         return self.case.get("units", "")
 
     @property
+    def scalars(self) -> list[str]:
+        """Names of what the flow carries and what diffuses."""
+        return [one["name"] for one in self.case.get("scalar", [])]
+
+    @property
     def frame_name(self) -> str | None:
         """The body or swimmer its frame goes with, if there is one."""
         frame = self.case.get("frame")
@@ -310,7 +319,7 @@ def read_field(path: str | Path) -> Field:
         raise ValueError(
             f"{path}: cells of VTK types {sorted(by_type)}; 22 or 24 alone can be drawn"
         )
-    missing = {"velocity", "pressure", "vorticity"} - set(grid.point_data.keys())
+    missing = OF_FLOW - set(grid.point_data.keys())
     if missing:
         found = ", ".join(sorted(grid.point_data.keys())) or "nothing"
         raise ValueError(
@@ -326,6 +335,11 @@ def read_field(path: str | Path) -> Field:
         velocity=np.array(grid.point_data["velocity"][:, :n], dtype=float),
         pressure=np.array(grid.point_data["pressure"], dtype=float),
         vorticity=np.array(grid.point_data["vorticity"], dtype=float),
+        scalars={
+            name: np.array(values, dtype=float)
+            for name, values in grid.point_data.items()
+            if name not in OF_FLOW and values.ndim == 1
+        },
     )
 
 

@@ -101,8 +101,7 @@ def chosen_quantity(run: Run, request: Request, report: Callable[[str], None]) -
                 f"{run.path} has neither field files nor bodies that move: nothing to film"
             )
         return "speed"
-    if request.quantity not in QUANTITIES:
-        raise ValueError(f"no quantity {request.quantity}; there are {', '.join(QUANTITIES)}")
+    checked.choice("quantity", request.quantity, [*QUANTITIES, *run.scalars])
     if request.quantity == "bodies":
         if not has_motion:
             known = "speed, pressure, vorticity" if n else "none"

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 Array = np.ndarray
 
 QUANTITIES = ("speed", "pressure", "vorticity")
+"""Of all runs; those with scalars have these as well."""
 FLUID, BODIES, LINES = "fluid", "bodies", "streamlines"
 """Parts that are coloured by a quantity."""
 HEAD = 0.03
@@ -87,6 +88,11 @@ class Scenery:
     """What the fluid is shown on, such as `z = 0`."""
 
 
+def quantities_of(run: Run) -> list[str]:
+    """Quantities that parts of a frame can be coloured by."""
+    return [*QUANTITIES, *run.scalars]
+
+
 def scenery(run: Run, time: float | None = None) -> Scenery:
     """The frame nearest to a time, or the last one."""
     frame = run.frame(time)
@@ -102,7 +108,7 @@ def _in_the_plane(run: Run, time: float) -> Scenery:
     if run.is_axisymmetric:
         flow = mirrored(flow)
     view = default_view(run, whole, np.array([time]))
-    values = {name: nodal_values(flow, name) for name in QUANTITIES}
+    values = {name: nodal_values(flow, name) for name in quantities_of(run)}
     scales = {}
     for name, own in values.items():
         at, share = shares(flow, own, view)
@@ -142,18 +148,19 @@ def _in_space(run: Run, time: float) -> Scenery:
     still = np.zeros((1, 3))
     seen = _with_sides(run, flow, camera.seen(run, [moment], request, still, AROUND))
     cut = camera.cut(run, [moment], request, seen, still)
+    quantities = quantities_of(run)
     parts, scales = [], {}
     for name, meshes in (
-        (FLUID, [whole_slice(run.case, flow, cut, quantity) for quantity in QUANTITIES]),
+        (FLUID, [whole_slice(run.case, flow, cut, quantity) for quantity in quantities]),
         (BODIES, _bodies(run, smooth_pressure(flow))),
     ):
         if not meshes or not meshes[0].n_cells:
             continue
         values = {
             quantity: np.asarray(mesh.point_data["values"], dtype=float)
-            for quantity, mesh in zip(QUANTITIES, meshes, strict=True)
+            for quantity, mesh in zip(quantities, meshes, strict=True)
         }
-        for quantity, mesh in zip(QUANTITIES, meshes, strict=True):
+        for quantity, mesh in zip(quantities, meshes, strict=True):
             own = values[quantity]
             ends = (float(own.min()), float(own.max()))
             tail = style.ON_BODIES if name == BODIES else style.IN_SCENES
@@ -207,7 +214,7 @@ def _bodies(run: Run, flow: Field) -> list[pyvista.PolyData]:
     # A face is halved along each side: four times as many triangles each time
     halvings = next((n for n in (3, 2, 1) if faces * 4**n <= MOST_TRIANGLES), 1)
     try:
-        return [surfaces.bodies_surface(run, flow, one, halvings) for one in QUANTITIES]
+        return [surfaces.bodies_surface(run, flow, one, halvings) for one in quantities_of(run)]
     except ValueError:
         return []
 

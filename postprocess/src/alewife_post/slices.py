@@ -74,7 +74,7 @@ def slice_picture(
             "and alewife-post surface along the curve of a slice; on slices there are "
             f"{', '.join(QUANTITIES)}"
         )
-    checked.choice("quantity", quantity, QUANTITIES)
+    checked.choice("quantity", quantity, [*QUANTITIES, *run.scalars])
     checked.choice("lines", lines, LINES)
     view = None if view is None else checked.view(view)
     painter = chosen_painter(painter)

@@ -40,24 +40,25 @@ SLICE_OPACITY = 0.8
 
 def images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]:
     """One image a moment."""
-    _check(request)
+    _check(run, request)
     pages = zip(_pages(run, moments, request, 1), moments, strict=True)
     return (page.image(time_stamp(run, moment.time)) for page, moment in pages)
 
 
 def still(run: Run, moment: Moment, request: Request) -> Figure:
     """The same as a figure, its image finer."""
-    _check(request)
+    _check(run, request)
     page = next(_pages(run, [moment], request, FINER))
     page.stamp.set_text(time_stamp(run, moment.time))
     return page.figure
 
 
-def _check(request: Request) -> None:
-    if request.iso is None and request.quantity not in IN_SPACE:
-        raise ValueError(f"{request.quantity} is not filmed in space: {', '.join(IN_SPACE)}")
+def _check(run: Run, request: Request) -> None:
+    if request.iso is None and request.quantity not in (*IN_SPACE, *run.scalars):
+        known = ", ".join([*IN_SPACE, *run.scalars])
+        raise ValueError(f"{request.quantity} is not filmed in space: {known}")
     if request.iso is not None:
-        isosurfaces.parsed(request.iso)
+        isosurfaces.parsed(request.iso, run.scalars)
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
 
@@ -153,7 +154,7 @@ def _isosurfaces(
     run: Run, moments: list[Moment], request: Request, box: Array, moved: Array
 ) -> tuple[list[pyvista.PolyData], str]:
     """Surfaces of one value in all frames, and what they are."""
-    quantity, level = isosurfaces.parsed(request.iso)
+    quantity, level = isosurfaces.parsed(request.iso, run.scalars)
 
     # Read again rather than kept: a film has hundreds of them
     def fields() -> Iterator[tuple[Field, Array]]:

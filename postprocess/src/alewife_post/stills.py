@@ -45,8 +45,8 @@ def scene_picture(
     the pressure on them. `look_from` is in degrees about z, from x, and above the horizon. `scale`
     is that of the fluid.
     """
-    checked.choice("quantity of a scene", quantity, scenery.QUANTITIES)
     check_run(run, is_spatial=True, instead="figure.picture")
+    checked.choice("quantity of a scene", quantity, scenery.quantities_of(run))
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
     shown = scenery.scenery(run, time)

@@ -88,6 +88,11 @@ LOOKS = {
 }
 
 
+def look_of(quantity: str) -> Look:
+    """How a quantity is shown; a scalar by its own name."""
+    return LOOKS.get(quantity) or Look(quantity, "plasma", "PuOr_r")
+
+
 def use() -> None:
     """Make matplotlib look like this file."""
     matplotlib.rcParams.update(PARAMETERS)
@@ -96,7 +101,8 @@ def use() -> None:
 def label(quantity: str, units: Given) -> str:
     """Label of a colour bar, with the unit if it is known."""
     unit = unit_of(quantity, units)
-    return f"{LOOKS[quantity].label} ({unit})" if unit else LOOKS[quantity].label
+    own = look_of(quantity).label
+    return f"{own} ({unit})" if unit else own
 
 
 def length_label(name: str, units: Given) -> str:
@@ -144,6 +150,8 @@ TAIL = {"speed": 0.1, "pressure": 0.3, "shear-rate": 1.0, "traction": 1.0, "wall
 """Per cent of the area whose values may lie beyond a limit, on each side."""
 
 
+IN_SCALARS = 0.1
+"""The same of scalars, which lie between values of the case, but for overshoot in thin layers."""
 ON_BODIES = 2.0
 """The same on bodies: where two nearly touch, the pressure in their gap would wash out all else."""
 IN_SCENES = 1.5
@@ -160,7 +168,7 @@ def colours(
     A few extreme values may lie outside the limits: cells crowd at bodies and in gaps, where values
     are extreme, and hold little of the area: `tail` per cent of it at each end, else `TAIL`.
     """
-    look = LOOKS[quantity]
+    look = look_of(quantity)
     share = np.ones(len(values)) if share is None else share
     if quantity in ("vorticity", "q"):
         # It is nowhere but at bodies and in wakes: parts of the area would depend on how much of
@@ -171,9 +179,9 @@ def colours(
             # Magnitudes, in space
             return look.one_sided, (0.0, largest)
         return look.two_sided, (-largest, largest)
-    tail = TAIL[quantity] if tail is None else tail
+    tail = TAIL.get(quantity, IN_SCALARS) if tail is None else tail
     low, high = (percentile(values, share, wanted) for wanted in (tail, 100.0 - tail))
-    if quantity not in ("pressure",):
+    if quantity in LOOKS and quantity != "pressure":
         return look.one_sided, (0.0, high or 1.0)
     largest = max(abs(low), abs(high)) or 1.0
     if min(-low, high) > 0.2 * largest:
@@ -206,7 +214,7 @@ def line_colour(quantity: str, colour_map: str) -> str:
     """Of lines over a field: light ones over speed, unless its colours are a light map."""
     if quantity != "speed":
         return STREAMLINE_ON_LIGHT
-    looks = LOOKS[quantity]
+    looks = look_of(quantity)
     if colour_map in (looks.one_sided, looks.two_sided):
         return STREAMLINE
     # Most of a fluid is slow, and lines are seen where it is not as well
@@ -224,7 +232,7 @@ def beyond(quantity: str, limits: Limits, ends: Limits, tail: float | None = Non
     if quantity in ("vorticity", "q"):
         left_out = f"limits leave out {BEYOND:g} % of all {quantity}"
     else:
-        share = TAIL[quantity] if tail is None else tail
+        share = TAIL.get(quantity, IN_SCALARS) if tail is None else tail
         left_out = f"limits leave out {share:g} % of the area at each end"
     return f"{left_out}, up to {', '.join(f'{end:.3g}' for end in reached)}"
 

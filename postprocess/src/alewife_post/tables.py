@@ -69,5 +69,7 @@ def grid(field: Field) -> pyvista.UnstructuredGrid:
     made.point_data["velocity"] = velocity
     made.point_data["pressure"] = field.pressure
     made.point_data["vorticity"] = field.vorticity
+    for name, values in field.scalars.items():
+        made.point_data[name] = values
     made.field_data["TimeValue"] = [field.time]
     return made

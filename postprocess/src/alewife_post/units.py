@@ -85,7 +85,8 @@ def unit_of(dimension: str, given: Given, *, is_planar: bool = False) -> str | N
         "wall-shear": stress,
         "power": (_power(own, is_planar=is_planar), force and length and time),
     }
-    text, is_known = found[dimension]
+    # Cases give no units of scalars
+    text, is_known = found.get(dimension, (None, None))
     return text if is_known else None
 
 

@@ -72,14 +72,17 @@ pub use spec::fluid::tracer::{SeedGrid, SeedLine, TracerRegion, TracerSpec};
 pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use spec::fluid::{FlowModel, Fluid};
 pub use spec::formula::{Definitions, Expression, Formula, FormulaError, ParsedFormula};
+pub use spec::given_mesh::mesh_file::MeshFile;
+pub use spec::given_mesh::region_mesh::RegionFault;
+pub use spec::given_mesh::region_spec::{NamedSolid, RegionSpec, SidePart};
 pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
-pub use spec::mesh_file::{MeshFile, NamedSolid, RegionSpec, SidePart};
 pub use spec::optimisation::{
     FlowObjective, FlowOptimisation, FlowParameter, NamedQuantity, ObjectiveExpression,
     OptimumReference, SearchSettings, WeightedQuantity,
 };
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
+pub use spec::profile::{ColumnAxis, ProfileColumn, ProfileSpec};
 pub use spec::reduced::calibration::{CalibrationSpec, FitBy, FitName, RecordFrame, RecordSpec};
 pub use spec::reduced::law::{Coefficient, LoadLaw};
 pub use spec::reduced::mechanics::{EllipsoidSpec, KeelSpec, ServoSpec, SiteSpec, TendonSpec};

@@ -11,7 +11,7 @@ use super::front::SizedPoints;
 use super::triangulation::{Triangulation, WALL};
 use crate::number::index_u32;
 use crate::planar::torus::Torus;
-use crate::{MeshError, Point, SizeField};
+use crate::{MeshError, Point, SizeField, interrupt};
 
 type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
@@ -51,6 +51,7 @@ pub fn triangulate(
         conflict = conflict.or(Some(edge[0]))
     })
     .map_err(|_| refuse(0, "a coordinate is not finite, or too large"))?;
+    interrupt::check()?;
     if let Some(vertex) = conflict {
         return Err(refuse(vertex, "boundary edges cross"));
     }
@@ -60,6 +61,7 @@ pub fn triangulate(
 
     let not_closed = |vertex| refuse(vertex, "the boundary is not closed");
     let fluid = Fluid::new(&cdt, boundary, &copies).map_err(not_closed)?;
+    interrupt::check()?;
     let (triangles, across) = (fluid.triangles(), fluid.across().map_err(not_closed)?);
     Ok(Triangulation::new(points, sizes, triangles, across, boundary.edges.clone(), torus))
 }
@@ -114,7 +116,7 @@ impl<'a> Fluid<'a> {
             fluid.include(fluid.left(wall)?);
         }
         let mut next = 0;
-        while next < fluid.faces.len() {
+        while next < fluid.faces.len() && !interrupt::is_requested() {
             for side in fluid.sides(&fluid.faces[next]) {
                 // Images that are divided in different ways overlap
                 if fluid.left(side)? != fluid.faces[next] {

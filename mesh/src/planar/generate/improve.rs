@@ -60,7 +60,7 @@ pub fn improve(mesh: &mut Triangulation, border: &BoundaryLoops, is_curved: bool
         repair(mesh);
     }
     for _ in 0..ROUNDS {
-        if !split_boundary(mesh, border, is_curved) {
+        if interrupt::check().is_err() || !split_boundary(mesh, border, is_curved) {
             break;
         }
         flip_all(mesh);

@@ -2,6 +2,7 @@
 
 use super::triangulation::{Corner, Triangulation, WALL, mean_ratio};
 use crate::Point;
+use crate::interrupt::is_requested;
 use crate::number::index_u32;
 
 /// Triangles above this mean ratio may lose a little in favour of their neighbours.
@@ -10,7 +11,7 @@ const GOOD: f64 = 0.85;
 /// A change must improve by more than rounding.
 const PROGRESS: f64 = 1e-9;
 
-/// Flips sides as long as the worse triangle of a pair becomes better.
+/// Flips sides as long as the worse triangle of a pair becomes better, or until the work is to end.
 pub fn flip_all(mesh: &mut Triangulation) {
     let mut waiting: Vec<Corner> = Vec::new();
     for t in (0..mesh.triangles.len()).rev().filter(|t| mesh.is_alive(*t)) {
@@ -24,6 +25,9 @@ pub fn flip_all(mesh: &mut Triangulation) {
 
 pub fn flip_from(mesh: &mut Triangulation, waiting: &mut Vec<Corner>) {
     while let Some((t, s)) = waiting.pop() {
+        if is_requested() {
+            return;
+        }
         let Some((u, _)) = mesh.behind((t, s)) else { continue };
         let now = mesh.quality(t).min(mesh.quality(u));
         if mesh.flipped_quality((t, s)).is_some_and(|then| then > now + PROGRESS) {
@@ -36,7 +40,7 @@ pub fn flip_from(mesh: &mut Triangulation, waiting: &mut Vec<Corner>) {
 /// One sweep of smoothing over all inner vertices.
 pub fn smooth_all(mesh: &mut Triangulation) {
     let mut star = Vec::new();
-    for v in 0..index_u32(mesh.points.len()) {
+    for v in (0..index_u32(mesh.points.len())).take_while(|_| !is_requested()) {
         if !mesh.is_fixed(v) && mesh.is_used(v) {
             mesh.star(v, &mut star);
             smooth(mesh, v, &star);

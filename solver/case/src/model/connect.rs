@@ -116,6 +116,7 @@ fn of_side(condition: &mut BoundaryCondition) -> Option<&mut TimeFunction> {
         | BoundaryCondition::Pressure { factor, .. }
         | BoundaryCondition::Traction { factor, .. }
         | BoundaryCondition::Shear { factor, .. } => factor.as_mut(),
+        BoundaryCondition::Profile(profile) => profile.factor.as_mut(),
         BoundaryCondition::NoSlip
         | BoundaryCondition::DoNothing
         | BoundaryCondition::TractionFree

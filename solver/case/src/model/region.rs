@@ -2,8 +2,8 @@
 
 use alewife_mesh::{Domain, Point, SizeBox, Sizing};
 
+use crate::MeshFile;
 use crate::spec::extent::Extent;
-use crate::spec::mesh_file::MeshFile;
 use crate::{Body, BoundaryCondition, Case, DomainSpec, Geometry, ShapeSpec};
 
 /// The axis that a straight side is normal to.

@@ -180,6 +180,7 @@ fn largest_speed(case: &Case, value: &[Formula]) -> f64 {
 fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
     match condition {
         BoundaryCondition::Velocity { value, .. } => largest_speed(case, value),
+        BoundaryCondition::Profile(profile) => profile.largest_speed(),
         BoundaryCondition::Developed { peak: Some(peak), .. } => peak.abs(),
         BoundaryCondition::Developed { flux: Some(flux), .. } => {
             // Of a round or square side as wide as the domain is narrow

@@ -22,7 +22,7 @@ mod variants;
 use std::sync::Arc;
 
 use self::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
-use self::columns::{midline_file, probe_line, seed_file};
+use self::columns::{midline_file, probe_line, profile_file, seed_file};
 use self::files::stroke_file::RecordedStroke;
 use self::files::{
     calibrated_file, hole_shape, outline_file, periodic_sides, read_mesh, region_file, stroke_file,
@@ -252,6 +252,7 @@ impl UntypedCase {
         seed_file::resolve(&mut self.root).map_err(wrong)?;
         probe_line::resolve(&mut self.root).map_err(wrong)?;
         midline_file::resolve(&mut self.root).map_err(wrong)?;
+        profile_file::resolve(&mut self.root).map_err(wrong)?;
         let recorded = stroke_file::resolve(&mut self.root).map_err(wrong)?;
         region_file::resolve(&mut self.root).map_err(wrong)?;
         calibrated_file::resolve(&mut self.root).map_err(wrong)?;

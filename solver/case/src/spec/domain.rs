@@ -5,9 +5,10 @@ use serde::{Deserialize, Serialize};
 use super::body::command::Command;
 use super::body::stroke::Cycle;
 use super::formula::Formula;
-use super::mesh_file::{MeshFile, RegionSpec};
+use super::profile::ProfileSpec;
 #[cfg(test)]
 use crate::spec::number::{FormulaPerDimension, NonNegative, NonZero, PerDimension, Positive};
+use crate::{MeshFile, RegionSpec};
 
 /// Dimension and symmetry of the problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -217,6 +218,8 @@ pub enum BoundaryCondition {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         factor: Option<TimeFunction>,
     },
+    /// A velocity by numbers at places of the side, from a file.
+    Profile(ProfileSpec),
     /// Parabolic velocity along x, zero at both ends of the side (on a cylinder: largest on the axis;
     /// on a box in space: a parabola along y times one along z). On a flat side of `domain.mesh`: normal to
     /// it, into the domain, as `developed`.

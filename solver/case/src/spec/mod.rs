@@ -10,13 +10,14 @@ pub(crate) mod extent;
 pub(crate) mod field;
 pub(crate) mod fluid;
 pub(crate) mod formula;
+pub(crate) mod given_mesh;
 pub(crate) mod initial;
 pub(crate) mod mesh;
-pub(crate) mod mesh_file;
 #[cfg(test)]
 pub mod number;
 pub(crate) mod optimisation;
 pub(crate) mod output;
+pub(crate) mod profile;
 pub(crate) mod reduced;
 pub(crate) mod time;
 mod time_function;

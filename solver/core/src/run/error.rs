@@ -1,5 +1,6 @@
 //! `RunError`: what stopped a run, at which step, for which body or cell.
 
+use alewife_interrupt::Stopped;
 use alewife_mesh::MeshError;
 use thiserror::Error;
 
@@ -151,6 +152,13 @@ impl RunError {
             RemeshError::Shape(error) => FlowError::from(error).into(),
             error => Self::Unsupported(error.to_string()),
         }
+    }
+}
+
+impl From<Stopped> for RunError {
+    /// Before a run has begun.
+    fn from(_: Stopped) -> Self {
+        FlowError::Stopped { step: 0, time: 0.0 }.into()
     }
 }
 

@@ -1,5 +1,6 @@
 //! From a case to a simulation at rest, or as it was saved.
 
+use alewife_interrupt::check;
 use alewife_mesh::Mesh;
 
 use super::RunError;
@@ -37,6 +38,7 @@ where
     let mesh = &initial.mesh;
     tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh generated");
     check_memory(mesh)?;
+    check()?;
     let images = |mesh: &Mesh<D>| Dimension::<D>::images(&model.case, mesh);
     let mut measure = Measure::new(model, mesh, &images(mesh))?;
     let mut simulation = at_rest(model, initial, timing, |_| Ok(()))?;
@@ -159,6 +161,7 @@ fn at_rest<const D: usize>(
         timing.measure(Stage::MeshMotion, || make_moving(model, &problem, &state.mesh, poses))
     });
     let moving_mesh = moving_mesh.transpose()?;
+    check()?;
     let system = timing.measure(Stage::Assembly, || {
         fluid_system(&problem, &state, moving_mesh.as_ref(), scheme.unknown_frame)
     })?;

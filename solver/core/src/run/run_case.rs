@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use alewife_mesh::interrupt::{self, Heard};
+use alewife_interrupt::{Heard, hearing};
 
 use super::case_mesh::{CaseMesh, Dimension};
 use super::prepare::{Prepared, prepare};
@@ -68,9 +68,12 @@ fn check_commands(model: &Model, recording: Option<&Recording>) -> Result<(), Ru
     }
 }
 
-/// What work came to in which meshing hears a request to stop; where it was ended, the run is stopped at a step and
-/// its time (s).
-fn meshed<R>(heard: Heard<Result<R, RunError>>, step: usize, time: f64) -> Result<R, RunError> {
+/// What work came to that hears a request to stop; where it was ended, the run is stopped at a step and its time (s).
+fn unless_stopped<R>(
+    heard: Heard<Result<R, RunError>>,
+    step: usize,
+    time: f64,
+) -> Result<R, RunError> {
     match heard.result {
         Err(_) if heard.was_ended => Err(FlowError::Stopped { step, time }.into()),
         result => result,
@@ -96,11 +99,11 @@ impl<'a, const D: usize> Run<'a, D> {
         let (step, time) = saved.map_or((0, 0.0), |saved| (saved.step(), saved.time()));
         let model = Arc::new(model.disconnected());
         let recording = saved.map(|saved| saved.recording().clone()).unwrap_or_default();
-        let prepared = interrupt::hearing(Arc::clone(&stop), || {
+        let prepared = hearing(Arc::clone(&stop), || {
             recording.asked.iter().try_for_each(|asked| model.commands.ask(asked))?;
             prepare(&model, saved)
         });
-        let Prepared { mut simulation, measure } = match meshed(prepared, step, time) {
+        let Prepared { mut simulation, measure } = match unless_stopped(prepared, step, time) {
             Ok(prepared) => prepared,
             Err(error) => {
                 notify_all(&mut observers, &error, None);
@@ -138,14 +141,14 @@ impl<'a, const D: usize> Run<'a, D> {
         })
     }
 
-    /// Does work in which meshing hears a request to stop.
+    /// Does work that hears a request to stop.
     pub(super) fn hearing<R>(
         &mut self,
         work: impl FnOnce(&mut Self) -> Result<R, RunError>,
     ) -> Result<R, RunError> {
         let stop = self.simulation.stop.clone().unwrap_or_else(|| Arc::new(|| false));
-        let made = interrupt::hearing(stop, || work(self));
-        meshed(made, self.simulation.state.step, self.simulation.state.time)
+        let made = hearing(stop, || work(self));
+        unless_stopped(made, self.simulation.state.step, self.simulation.state.time)
     }
 
     /// Makes the whole run.

@@ -47,7 +47,9 @@ pub struct Equation<const D: usize> {
     rule: FacetRule<D>,
     folds: CellFolds,
     maps: CellMaps,
-    solver: DirectSolver,
+    unknowns: Unknowns,
+    /// None before the first solution.
+    solver: Option<DirectSolver>,
     /// For each node the boundary that holds its value.
     holder: Vec<Option<BoundaryId>>,
 }
@@ -75,9 +77,8 @@ impl<const D: usize> Equation<D> {
         }
         let is_pressure = vec![false; node.len()];
         let unknowns = Unknowns { node, is_pressure, dense: Vec::new() };
-        let solver = DirectSolver::new(maps.pattern(), &unknowns);
         let (tables, rule) = (Tables::new(metric), FacetRule::new(metric));
-        Self { tables, rule, folds, maps, solver, holder }
+        Self { tables, rule, folds, maps, unknowns, solver: None, holder }
     }
 
     /// The values after a step, with what comes through each boundary: by diffusion from the residual, as forces are.
@@ -129,8 +130,12 @@ impl<const D: usize> Equation<D> {
         defect.iter_mut().zip(wanted).for_each(|(value, wanted)| *value += wanted);
         let mut free = constraints.restrict(&defect);
         let matrix = self.matrix(&constraints, assembled);
-        self.solver.set_up(&matrix)?;
-        self.solver.solve(&matrix, &mut free)?;
+        let solver = match &mut self.solver {
+            Some(solver) => solver,
+            none => none.insert(DirectSolver::new(self.maps.pattern(), &self.unknowns)?),
+        };
+        solver.set_up(&matrix)?;
+        solver.solve(&matrix, &mut free)?;
         Ok(constraints.expand(&free))
     }
 

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::algebra::LinearError;
 use crate::case::rounded;
 use crate::contact::ContactError;
 use crate::coupling::{ShapeError, SolveError, coordinates};
@@ -151,6 +152,7 @@ impl FlowError {
     pub fn from_solve(error: SolveError, step: usize, time: f64) -> Self {
         match error {
             SolveError::NotFinite { near } => Self::NotFinite { step, time, near },
+            SolveError::Linear(LinearError::Stopped(_)) => Self::Stopped { step, time },
             error => Self::Singular { step, time, reason: error.to_string() },
         }
     }

@@ -7,6 +7,8 @@
 
 use std::sync::Arc;
 
+use alewife_interrupt::{check, left_alone};
+
 use super::fingerprint::{Fingerprints, hash_of_values};
 use super::krylov::{KrylovSolution, Stopping, fgmres};
 use super::memory::{ForeignMemory, SolverMemory};
@@ -29,6 +31,9 @@ const NOTHING: f64 = 1e-250;
 /// Residual of FGMRES relative to the terms of the equations: far below what a step of any method
 /// leaves of the error in time and space.
 const KRYLOV_TOLERANCE: f64 = 1e-12;
+
+/// Unknowns from which on it takes long to order them.
+const MANY_UNKNOWNS: usize = 100_000;
 
 /// The values that were factorised.
 #[derive(Debug, Clone)]
@@ -55,15 +60,22 @@ pub struct DirectSolver {
 impl DirectSolver {
     /// Orders the unknowns of a pattern and finds the fill of its factors.
     ///
+    /// # Errors
+    /// When the work of this thread is to end before that is done.
+    ///
     /// # Panics
     /// When `unknowns` does not fit the pattern.
-    #[must_use]
-    pub fn new(pattern: &Pattern, unknowns: &Unknowns) -> Self {
-        let analysis = Analysis::new(pattern, unknowns, Ordering::Best);
+    pub fn new(pattern: &Arc<Pattern>, unknowns: &Unknowns) -> Result<Self, LinearError> {
+        let analysis = if pattern.n() < MANY_UNKNOWNS {
+            Analysis::new(pattern, unknowns, Ordering::Best)
+        } else {
+            let (pattern, unknowns) = (Arc::clone(pattern), unknowns.clone());
+            left_alone(move || Analysis::new(&pattern, &unknowns, Ordering::Best))?
+        };
         let factors = Factors::new(&analysis);
         let policy = ReusePolicy::new(&analysis, pattern.n_entries());
         let marked_pauses = policy.pauses();
-        Self {
+        Ok(Self {
             analysis,
             factors,
             policy,
@@ -71,7 +83,7 @@ impl DirectSolver {
             marked: None,
             marked_pauses,
             fingerprints: Fingerprints::default(),
-        }
+        })
     }
 
     /// Entries of the factors of any matrix of the pattern, but for delayed pivots.
@@ -208,6 +220,7 @@ impl DirectSolver {
                 break;
             }
             accuracy.refinements += 1;
+            check()?;
             substitute(&mut self.factors, &self.analysis, &mut residual.defect);
             for (value, correction) in rhs.iter_mut().zip(&residual.defect) {
                 *value += correction;
@@ -274,6 +287,7 @@ impl LinearSolver for DirectSolver {
         }
         let KrylovSolution { x, iterations, residual } =
             self.iterate(matrix, &scales, &b, tolerance);
+        check()?;
         let has_converged = residual <= tolerance && all_finite(&x);
         tracing::debug!(iterations, has_converged, "iterated with earlier factors");
         if has_converged {

@@ -5,6 +5,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use alewife_interrupt::{Stopped, check, left_alone};
 use thiserror::Error;
 
 use super::cholesky::{Cholesky, CholeskyError};
@@ -21,6 +22,8 @@ const TOLERANCE: f64 = 1e-10;
 const MAX_ITERATIONS: usize = 200;
 /// Degree of the smoothers.
 const SMOOTHING: usize = 2;
+/// Unknowns from which on it takes long to factorise their matrix.
+const MANY_UNKNOWNS: usize = 50_000;
 
 /// Why an elliptic system is not solved.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -37,6 +40,9 @@ pub enum EllipticError {
         /// Norm of the residual over that of the right-hand side.
         residual: f64,
     },
+    /// The work was to end before there was a solution.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
 /// Which component at which node an unknown is.
@@ -63,9 +69,15 @@ impl EllipticSolver {
     /// By the factors of a matrix, of which the lower triangle is read.
     ///
     /// # Errors
-    /// When the matrix is not positive definite, or memory runs out.
+    /// When the matrix is not positive definite, memory runs out, or the work of this thread is to end.
     pub fn factorised(matrix: &SparseMatrix) -> Result<Self, EllipticError> {
-        Ok(Self::Factors(Box::new(Cholesky::factorise(matrix)?)))
+        let factors = if matrix.n() < MANY_UNKNOWNS {
+            Cholesky::factorise(matrix)?
+        } else {
+            let matrix = matrix.copied();
+            left_alone(move || Cholesky::factorise(&matrix))??
+        };
+        Ok(Self::Factors(Box::new(factors)))
     }
 
     /// By iterations, for a symmetric matrix and what its unknowns are, those of a node in order.
@@ -81,7 +93,7 @@ impl EllipticSolver {
     /// Overwrites right-hand sides, one after the other in `rhs`, with their solutions.
     ///
     /// # Errors
-    /// When memory runs out, or iterations do not end.
+    /// When memory runs out, iterations do not end, or the work of this thread is to.
     pub fn solve(&self, rhs: &mut [f64]) -> Result<(), EllipticError> {
         match self {
             Self::Factors(factors) => Ok(factors.solve(rhs)?),
@@ -153,6 +165,7 @@ impl<const B: usize> Iterations<B> {
         let precondition = |r: &[f64], z: &mut [f64]| self.precondition(r, z);
         let stopping = Stopping { tolerance: TOLERANCE * size, max_iterations: MAX_ITERATIONS };
         let found = fgmres(multiply, precondition, rhs, stopping);
+        check()?;
         let residual = found.residual / size;
         if residual.is_nan() || residual > TOLERANCE {
             return Err(EllipticError::NotConverged { residual });

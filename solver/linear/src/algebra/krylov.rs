@@ -1,5 +1,7 @@
 //! FGMRES: flexible GMRES, preconditioned from the right (@saad1993).
 
+use alewife_interrupt::check;
+
 use super::vectors::{add, dot, norm};
 
 /// When FGMRES ends.
@@ -24,7 +26,7 @@ pub(super) struct KrylovSolution {
 
 /// Solves A x = b from x = 0.
 ///
-/// `multiply` overwrites its second argument with A times the first, `precondition` with an
+/// Where the work of this thread is to end, it ends where it is. `multiply` overwrites its second argument with A times the first, `precondition` with an
 /// approximation of A^-1 times the first.
 pub(super) fn fgmres(
     mut multiply: impl FnMut(&[f64], &mut [f64]),
@@ -37,7 +39,9 @@ pub(super) fn fgmres(
     let mut basis = vec![b.iter().map(|value| value / initial).collect::<Vec<f64>>()];
     let mut directions: Vec<Vec<f64>> = Vec::new();
     let mut hessenberg = Hessenberg::new(initial);
-    while stopping.continues(initial, hessenberg.n_columns(), hessenberg.residual) {
+    while stopping.continues(initial, hessenberg.n_columns(), hessenberg.residual)
+        && check().is_ok()
+    {
         let mut direction = vec![0.0; n];
         precondition(&basis[hessenberg.n_columns()], &mut direction);
         let mut image = vec![0.0; n];

@@ -6,10 +6,11 @@
 
 use std::fmt::Debug;
 
+use alewife_interrupt::Stopped;
 use thiserror::Error;
 
 use super::memory::ForeignMemory;
-use crate::multifrontal::Singular;
+use crate::multifrontal::{NoFactors, Singular};
 
 /// Why a linear system was not solved.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -55,11 +56,17 @@ pub enum LinearError {
     /// A solver cannot continue from what another one kept.
     #[error(transparent)]
     Foreign(#[from] ForeignMemory),
+    /// The work was to end before there was a solution.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
-impl From<Singular> for LinearError {
-    fn from(singular: Singular) -> Self {
-        Self::Singular(singular)
+impl From<NoFactors> for LinearError {
+    fn from(error: NoFactors) -> Self {
+        match error {
+            NoFactors::Singular(singular) => Self::Singular(singular),
+            NoFactors::Stopped(stopped) => Self::Stopped(stopped),
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 //! Matrices are column-major slices. Products and triangular solves are faer's; narrow
 //! panels are eliminated here, because calls would cost more than the arithmetic.
 
+use alewife_interrupt::Listener;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par};
@@ -18,6 +19,18 @@ pub(super) const THRESHOLD: f64 = 1e-4;
 /// and far above what is left of a pivot that only these unknowns determine.
 const DENSE_THRESHOLD: f64 = 1e-12;
 
+/// Operations that take some tenths of a second: between more it is asked whether the work is to end.
+pub(super) const LONG: usize = 4_000_000_000;
+/// Operations that take much longer than to ask.
+const WORTH_A_LOOK: usize = 10_000_000;
+
+/// Columns that are worked on at once, of some that take so many operations each: parts of about the same size, since
+/// few columns are worked on in another order.
+pub(super) fn columns_at_once(columns: usize, operations: usize) -> usize {
+    let parts = columns.saturating_mul(operations).div_ceil(LONG).max(1);
+    columns.div_ceil(parts).next_multiple_of(NARROW)
+}
+
 pub(super) fn view(slice: &[f64], rows: usize, columns: usize, stride: usize) -> MatRef<'_, f64> {
     MatRef::from_column_major_slice_with_stride(slice, rows, columns, stride)
 }
@@ -31,7 +44,7 @@ pub(super) fn view_mut(
     MatMut::from_column_major_slice_with_stride_mut(slice, rows, columns, stride)
 }
 
-/// A column of the panel has no acceptable pivot.
+/// A column of the panel has no acceptable pivot, or the work is to end.
 #[derive(Debug)]
 pub(super) struct NoPivot;
 
@@ -67,41 +80,59 @@ impl PivotRows {
     }
 }
 
-/// LU of a panel with partial pivoting among its first rows; `swaps[j]` is how far below row j the
-/// pivot was found.
-pub(super) fn lu(
-    arch: pulp::Arch,
-    a: &mut [f64],
-    shape: PanelShape,
-    pivot_rows: PivotRows,
-    swaps: &mut [u32],
-) -> Result<(), NoPivot> {
-    let PanelShape { rows, columns, stride } = shape;
-    if columns <= NARROW {
-        return arch.dispatch(Narrow { a, shape, pivot_rows, swaps });
+/// How a panel is eliminated.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Panel<'a> {
+    pub arch: pulp::Arch,
+    /// Says whether the work is to end.
+    pub listener: &'a Listener,
+    pub shape: PanelShape,
+}
+
+impl Panel<'_> {
+    /// LU with partial pivoting among the first rows; `swaps[j]` is how far below row j the pivot was found.
+    pub fn lu(
+        self,
+        a: &mut [f64],
+        pivot_rows: PivotRows,
+        swaps: &mut [u32],
+    ) -> Result<(), NoPivot> {
+        let Self { arch, shape, .. } = self;
+        let PanelShape { rows, columns, stride } = shape;
+        if columns <= NARROW {
+            return arch.dispatch(Narrow { a, shape, pivot_rows, swaps });
+        }
+        let half = (columns / 2).next_multiple_of(NARROW);
+        let others = columns - half;
+        let (left, right) = a.split_at_mut(half * stride);
+        let (left_swaps, right_swaps) = swaps.split_at_mut(half);
+        let of_left = Self { shape: PanelShape { columns: half, ..shape }, ..self };
+        of_left.lu(left, pivot_rows, left_swaps)?;
+        swap_rows(right, others, stride, left_swaps);
+        let per_column = 2 * rows * half;
+        for some in right.chunks_mut(columns_at_once(others, per_column) * stride) {
+            let n = some.len().div_ceil(stride).min(others);
+            if per_column * n > WORTH_A_LOOK && self.listener.check().is_err() {
+                return Err(NoPivot);
+            }
+            self.eliminate(left, half, some, n);
+        }
+        let shape = PanelShape { rows: rows - half, columns: others, stride };
+        Self { shape, ..self }.lu(&mut right[half..], pivot_rows.after(half), right_swaps)?;
+        swap_rows(&mut left[half..], half, stride, right_swaps);
+        Ok(())
     }
-    let half = (columns / 2).next_multiple_of(NARROW);
-    let others = columns - half;
-    let (left, right) = a.split_at_mut(half * stride);
-    let (left_swaps, right_swaps) = swaps.split_at_mut(half);
-    lu(arch, left, PanelShape { columns: half, ..shape }, pivot_rows, left_swaps)?;
-    swap_rows(right, others, stride, left_swaps);
-    {
-        // Columns of the upper and the lower part are interleaved in memory.
-        let (upper, lower) = view_mut(right, rows, others, stride).split_at_row_mut(half);
-        let mut upper = upper;
-        solve_unit_lower_triangular_in_place(
-            view(left, half, half, stride),
-            upper.as_mut(),
-            Par::Seq,
-        );
+
+    /// Eliminates the unknowns of the first columns from some of the others.
+    pub fn eliminate(self, left: &[f64], half: usize, right: &mut [f64], columns: usize) {
+        let PanelShape { rows, stride, .. } = self.shape;
+        // Columns of the upper and the lower part are interleaved in memory
+        let (mut upper, lower) = view_mut(right, rows, columns, stride).split_at_row_mut(half);
+        let triangle = view(left, half, half, stride);
+        solve_unit_lower_triangular_in_place(triangle, upper.as_mut(), Par::Seq);
         let multipliers = view(&left[half..], rows - half, half, stride);
         matmul(lower, Accum::Add, multipliers, upper.as_ref(), -1.0, Par::Seq);
     }
-    let below = PanelShape { rows: rows - half, columns: others, stride };
-    lu(arch, &mut right[half..], below, pivot_rows.after(half), right_swaps)?;
-    swap_rows(&mut left[half..], half, stride, right_swaps);
-    Ok(())
 }
 
 /// Applies the row exchanges of a panel to other columns.
@@ -241,8 +272,9 @@ pub(super) struct PartialLu {
 
 /// LU with a free choice of pivot columns: as many of the k fully summed columns of the panel of m
 /// rows as have a pivot above `pivot_floors[column]` and large enough against the tested rest of its
-/// column.
+/// column. Where the work is to end, there are fewer.
 pub(super) fn lu_delaying(
+    listener: &Listener,
     l: &mut [f64],
     m: usize,
     pivot_rows: PivotRows,
@@ -252,7 +284,7 @@ pub(super) fn lu_delaying(
     let mut rows: Vec<u32> = (0..to_u32(k)).collect();
     let mut columns = rows.clone();
     let mut pivots = 0;
-    while pivots < k {
+    while pivots < k && !listener.is_requested() {
         let candidate = (pivots..k).find_map(|column| {
             let values = &l[column * m..(column + 1) * m];
             let Largest { index: below, size } = largest(&values[pivots..k])?;

@@ -32,5 +32,5 @@ mod substitution;
 mod tests;
 
 pub use analysis::Analysis;
-pub use factorisation::{Factors, Singular};
+pub use factorisation::{Factors, NoFactors, Singular};
 pub use ordering::Ordering;

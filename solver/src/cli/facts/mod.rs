@@ -170,6 +170,7 @@ fn condition_name(condition: &BoundaryCondition) -> &'static str {
         BoundaryCondition::Pressure { .. } => "pressure",
         BoundaryCondition::Traction { .. } => "traction",
         BoundaryCondition::Developed { .. } => "developed",
+        BoundaryCondition::Profile(_) => "profile",
         BoundaryCondition::Velocity { .. } => "velocity",
         BoundaryCondition::Parabolic { .. } => "parabolic",
         BoundaryCondition::Shear { .. } => "shear",

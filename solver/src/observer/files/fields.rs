@@ -224,8 +224,13 @@ where
         if matches!(error, RunError::Output(_)) {
             return Ok(());
         }
+        let is_stopped = matches!(error, RunError::Flow(FlowError::Stopped { .. }));
+        // There is no flow yet
+        if is_stopped && last.saved.is_none() {
+            return Ok(());
+        }
         let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure, last.scalars)?;
-        if matches!(error, RunError::Flow(FlowError::Stopped { .. })) {
+        if is_stopped {
             let name = STOPPED.to_owned();
             self.create_folder("fields")?;
             write_atomic(&self.directory.join(&name), &bytes)?;

@@ -3,4 +3,5 @@
 pub mod midline_file;
 pub mod point_file;
 pub mod probe_line;
+pub mod profile_file;
 pub mod seed_file;

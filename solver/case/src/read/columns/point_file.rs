@@ -119,6 +119,12 @@ pub fn list(file: &TomlNode, numbers: &[f64]) -> TomlNode {
     array(file, numbers.iter().map(|x| written(file, TomlValue::Float(*x))).collect())
 }
 
+/// Texts likewise.
+pub fn texts(file: &TomlNode, texts: &[&str]) -> TomlNode {
+    let text = |text: &&str| written(file, TomlValue::String((*text).to_owned()));
+    array(file, texts.iter().map(text).collect())
+}
+
 /// Rows of numbers likewise.
 pub fn rows<R: AsRef<[f64]>>(file: &TomlNode, rows: &[R]) -> TomlNode {
     array(file, rows.iter().map(|row| list(file, row.as_ref())).collect())

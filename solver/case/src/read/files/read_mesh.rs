@@ -6,7 +6,7 @@ use std::sync::Arc;
 use alewife_mesh::{MshOptions, Place};
 
 use crate::read::library;
-use crate::spec::mesh_file::Contents;
+use crate::spec::given_mesh::mesh_file::{Contents, MeshSource};
 use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TreeError};
 use crate::{Case, DomainSpec};
@@ -65,7 +65,7 @@ pub fn read_into(case: &mut Case, root: &TomlNode) -> Result<(), TreeError> {
         refused(format!("{}{place}: {}", spec.file, error.found), &help)
     })?;
     spec.checksum = Some(found);
-    spec.contents = Some(Arc::new(contents));
+    spec.source = MeshSource::File(Arc::new(contents));
     Ok(())
 }
 

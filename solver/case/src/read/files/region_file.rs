@@ -1,32 +1,27 @@
-//! The closed surface that a case names as its domain: read, its sides told apart, its inside meshed.
+//! The closed surface that a case names as its domain: read, its sides told apart.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use alewife_mesh::spatial::{
-    NamedTriangles, Region, SurfaceFault, TriangleMesh, estimate_cells_inside, generate_inside,
-};
-use alewife_mesh::{MeshError, Point, Sizing};
+use alewife_mesh::spatial::{NamedTriangles, Region, SurfaceFault, TriangleMesh};
+use alewife_mesh::{Point, Sizing};
 
 use super::surface_file::{NamedFile, read_named};
-use crate::spec::mesh_file::{Contents, MeshFile, NamedSolid, RegionSpec, SidePart};
+use crate::spec::given_mesh::region_mesh::RegionMesh;
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
-use crate::{Case, DomainSpec, Geometry};
+use crate::{Case, DomainSpec, Geometry, MeshFile, NamedSolid, RegionFault, RegionSpec, SidePart};
 
 /// Triangles are in a plane when they are nearer to it than this part of the surface.
 const IN_PLANE: f64 = 1e-5;
 
-/// Most cells of the inside.
-const MOST_CELLS: f64 = 5e6;
-
 /// The side of triangles that belong to none that is named.
 const REST: &str = "wall";
 
-/// Meshes that are kept for cases that are read again.
+/// Regions that are kept, with their meshes, for cases that are read again.
 const MOST_KEPT: usize = 4;
 
-/// The meshes made last, by all they follow from: what is kept changes no result.
-static KEPT: Mutex<Vec<(String, Arc<Contents>)>> = Mutex::new(Vec::new());
+/// The regions read last, by all they follow from: what is kept changes no result.
+static KEPT: Mutex<Vec<(String, Arc<RegionMesh>)>> = Mutex::new(Vec::new());
 
 /// Puts the triangles of a file in the place of its name, so that a case stands for itself.
 ///
@@ -53,10 +48,10 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
     Ok(())
 }
 
-/// Meshes the inside of the surface that is the domain of a case, if one is.
+/// Reads the surface that is the domain of a case, if one is.
 ///
 /// # Errors
-/// When triangles enclose nothing, a side has none, or the inside cannot be meshed.
+/// When triangles enclose nothing, or a side has none.
 pub fn read_into(case: &mut Case, root: &TomlNode) -> Result<(), TreeError> {
     let sizing = case.sizing::<3>();
     let DomainSpec::Surface(spec) = &mut case.domain else { return Ok(()) };
@@ -72,7 +67,7 @@ pub fn read_into(case: &mut Case, root: &TomlNode) -> Result<(), TreeError> {
     if case.geometry != Geometry::Spatial || !is_ready(spec, &sizing) {
         return Ok(());
     }
-    let refused = |Refused { key, message, help }: Refused| {
+    let refused = |RegionFault { key, message, help, .. }: RegionFault| {
         let found = root.find(&key);
         let at_data = root.find("domain.surface.data");
         let node = if found.is_exact { found.node } else { at_data.node };
@@ -80,19 +75,19 @@ pub fn read_into(case: &mut Case, root: &TomlNode) -> Result<(), TreeError> {
     };
     let made_of = format!("{spec:?} {sizing:?}");
     let kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    let contents = match kept.into_iter().find(|(known, _)| *known == made_of) {
-        Some((_, contents)) => contents,
+    let region = match kept.into_iter().find(|(known, _)| *known == made_of) {
+        Some((_, region)) => region,
         None => {
-            let contents = Arc::new(fill(spec, &sizing).map_err(refused)?);
+            let region = Arc::new(region(spec, &sizing).map_err(refused)?);
             let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
             if kept.len() >= MOST_KEPT {
                 kept.remove(0);
             }
-            kept.push((made_of, Arc::clone(&contents)));
-            contents
+            kept.push((made_of, Arc::clone(&region)));
+            region
         }
     };
-    spec.filled = Some(MeshFile::of_region(contents));
+    spec.filled = Some(MeshFile::inside(region));
     Ok(())
 }
 
@@ -104,80 +99,17 @@ fn is_ready(spec: &RegionSpec, sizing: &Sizing<3>) -> bool {
     spec.data.is_some() && sizes.all(is_positive) && without_sides.check(&[]).is_ok()
 }
 
-/// Why a region was not made.
-struct Refused {
-    key: String,
-    message: String,
-    help: String,
-}
-
-/// Length of a region over the size of its cells from which on its unit of length is asked for: it would have more
-/// cells than any other one.
-const MUCH_LARGER: f64 = 1000.0;
-
-/// The mesh inside a surface.
-fn fill(spec: &RegionSpec, sizing: &Sizing<3>) -> Result<Contents, Refused> {
-    let of_surface = |fault: SurfaceFault| Refused {
-        key: "domain.surface.data".to_owned(),
-        message: format!("the surface of the domain: {fault}"),
-        help: fault.remedy().to_owned(),
+/// The inside of a surface, its sides told apart.
+fn region(spec: &RegionSpec, sizing: &Sizing<3>) -> Result<RegionMesh, RegionFault> {
+    let of_surface = |fault: SurfaceFault| {
+        let message = format!("the surface of the domain: {fault}");
+        RegionFault::new("domain.surface.data", message, fault.remedy().to_owned())
     };
     let data = spec.data.as_deref().unwrap_or_default();
     let mesh = TriangleMesh::from_line(data).map_err(of_surface)?.scaled(spec.scale);
-    let length = length_of(&mesh);
     let Sides { names, of } = sides(spec, &mesh)?;
     let region = Region::new(mesh, names, of, spec.smooth).map_err(of_surface)?;
-    let unit = unit(length, sizing.size, spec.scale);
-    let of_mesh = |error: MeshError| {
-        Refused {
-        key: match error {
-            MeshError::UnknownSide { .. } => "mesh.sides".to_owned(),
-            _ => "domain.surface.data".to_owned(),
-        },
-        message: format!("the inside of the surface cannot be meshed: {error}"),
-        help: "take a smaller mesh.size, or a smaller edge length in mesh.sides where it is, or round edges that \
-               are too sharp"
-            .to_owned(),
-    }
-    };
-    let n_cells = estimate_cells_inside(&region, sizing, MOST_CELLS).map_err(of_mesh)?;
-    if n_cells > MOST_CELLS {
-        return Err(Refused {
-            key: "mesh.size".to_owned(),
-            message: format!(
-                "the inside of the surface would have more than {MOST_CELLS:e} cells, by sizes and by how its wall \
-                 bends and narrows"
-            ),
-            help: "write a larger size, fewer gap_layers, or a larger mesh.scale".to_owned()
-                + &unit,
-        });
-    }
-    let mesh = generate_inside(&region, sizing).map_err(of_mesh)?;
-    Ok(Contents::of_region(mesh))
-}
-
-/// The length of a surface along the axis on which it is longest (m).
-fn length_of(mesh: &TriangleMesh) -> f64 {
-    let along = |axis: usize| {
-        let parts = mesh.vertices.iter().map(|vertex| vertex[axis]);
-        let [low, high] = parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| {
-            [part.min(low), part.max(high)]
-        });
-        high - low
-    };
-    (0..3).map(along).fold(0.0, f64::max)
-}
-
-/// What else may be wrong with a region that is far larger than the sizes of its cells (m).
-fn unit(length: f64, size: f64, scale: f64) -> String {
-    if length < MUCH_LARGER * size {
-        return String::new();
-    }
-    format!(
-        "; the surface is about {length:.3e} long and mesh.size {size:.3e}: where lengths of its file are in another unit \
-         than the case, such as mm, write scale = {:?}",
-        scale * 1e-3
-    )
+    Ok(RegionMesh::new(region, sizing.clone(), spec.scale))
 }
 
 /// Names of sides, and that of each triangle.
@@ -192,7 +124,7 @@ fn solids_of(solids: &[NamedSolid], n: usize) -> Vec<&str> {
     named.chain(std::iter::repeat("")).take(n).collect()
 }
 
-fn sides(spec: &RegionSpec, mesh: &TriangleMesh) -> Result<Sides, Refused> {
+fn sides(spec: &RegionSpec, mesh: &TriangleMesh) -> Result<Sides, RegionFault> {
     let n = mesh.triangles.len();
     let solids = solids_of(&spec.solids, n);
     // A name that all have is that of the whole
@@ -206,13 +138,13 @@ fn sides(spec: &RegionSpec, mesh: &TriangleMesh) -> Result<Sides, Refused> {
         let own = triangles_of(part, mesh, &solids);
         if own.is_empty() {
             let message = format!("no triangle of the surface is on the side `{side}`");
-            return Err(Refused { key, message, help: parts_there_are(mesh, &solids) });
+            return Err(RegionFault::new(&key, message, parts_there_are(mesh, &solids)));
         }
         for triangle in own {
             if let Some(other) = of[triangle].replace(number) {
                 let message = format!("the sides `{}` and `{side}` overlap", names[other]);
                 let help = "give each triangle one side".to_owned();
-                return Err(Refused { key, message, help });
+                return Err(RegionFault::new(&key, message, help));
             }
         }
     }
@@ -320,10 +252,10 @@ boundary = {{ {boundary} }}
 
     #[test]
     fn a_surface_in_another_unit_of_length_is_asked_about() {
-        let Err(refused) = read(BOX, "file = 'box.obj'\nscale = 1e3", GROUPS, "0.5") else {
-            panic!("has too many cells")
-        };
-        assert!(refused.contains("another unit") && refused.contains("scale = 1.0"), "{refused}");
+        let file = read(BOX, "file = 'box.obj'\nscale = 1e3", GROUPS, "0.5").unwrap();
+        let refused = check(&file).into_iter().find(|one| one.key == "mesh.size").unwrap();
+        assert!(refused.message.contains("more than 5e6 cells"), "{refused:?}");
+        assert!(refused.help.contains("another unit") && refused.help.contains("scale = 1.0"));
         // One that is far too small is meshed, and asked about
         for (scale, is_asked) in [("1e-3", true), ("1.0", false)] {
             let keys = format!("file = 'box.obj'\nscale = {scale}");
@@ -378,8 +310,8 @@ boundary = {{ {boundary} }}
             let error = read(obj, &keys, GROUPS, "0.5").unwrap_err();
             assert!(error.contains(told), "{told}: {error}");
         }
-        let fine = read(BOX, file, GROUPS, "1e-4").unwrap_err();
-        assert!(fine.contains("more than 5e6 cells"), "{fine}");
+        let fine = read(BOX, file, GROUPS, "1e-4").unwrap();
+        assert!(errors(&fine).iter().any(|one| one.contains("more than 5e6 cells")));
         let wrong = read(BOX, file, GROUPS, "-1.0").unwrap();
         assert!(errors(&wrong).iter().any(|one| one.contains("mesh.size")));
         for (key, value) in

@@ -80,6 +80,9 @@ fn side_drives(side: &BoundaryCondition) -> bool {
         BoundaryCondition::Pressure { value, factor } => {
             is_not_zero(value) && acts(factor.as_ref())
         }
+        BoundaryCondition::Profile(profile) => {
+            profile.largest_speed() > 0.0 && acts(profile.factor.as_ref())
+        }
         BoundaryCondition::Developed { flux, peak, factor } => {
             flux.or(*peak).unwrap_or(0.0) != 0.0 && acts(factor.as_ref())
         }

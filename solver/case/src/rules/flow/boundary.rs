@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::given_mesh;
+use super::profile::check_profile;
 use crate::model::region::{normal_axis, opposite};
 use crate::rules::Findings;
 use crate::rules::body::joints::{check_cycle, cubic};
@@ -49,8 +50,8 @@ pub fn check(findings: &mut Findings<'_>) {
                 if bare.len() > 1 { "s" } else { "" }
             ),
             "add to [boundary] for each: no-slip, do-nothing, traction-free, symmetry, { pressure = ... }, \
-             { traction = ... }, { velocity = ... }, { parabolic = ... }, { developed = ... }, { shear = ... } or \
-             { periodic = ... }",
+             { traction = ... }, { velocity = ... }, { profile = \"inflow.csv\" }, { parabolic = ... }, \
+             { developed = ... }, { shear = ... } or { periodic = ... }",
         );
     }
     check_balance(findings);
@@ -66,8 +67,7 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         DomainSpec::Cylinder { .. } => side == "wall" && !is_axisymmetric,
         DomainSpec::Mesh(_) | DomainSpec::Surface(_) => {
             given_mesh::check_side(findings, key, side, condition);
-            check_developed(findings, key, condition);
-            check_factor_of(findings, key, condition);
+            check_given(findings, key, condition);
             return;
         }
     };
@@ -113,7 +113,15 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         }
         _ => {}
     }
+    check_given(findings, key, condition);
+}
+
+/// What is given of a flow, by itself.
+fn check_given(findings: &mut Findings<'_>, key: &str, condition: &BoundaryCondition) {
     check_developed(findings, key, condition);
+    if let BoundaryCondition::Profile(profile) = condition {
+        check_profile(findings, &format!("{key}.profile"), profile);
+    }
     check_factor_of(findings, key, condition);
 }
 
@@ -136,6 +144,7 @@ fn check_factor_of(findings: &mut Findings<'_>, key: &str, condition: &BoundaryC
         BoundaryCondition::Parabolic { factor, .. } => ("parabolic", factor),
         BoundaryCondition::Shear { factor, .. } => ("shear", factor),
         BoundaryCondition::Developed { factor, .. } => ("developed", factor),
+        BoundaryCondition::Profile(profile) => ("profile", &profile.factor),
         BoundaryCondition::Pressure { factor, .. } => ("pressure", factor),
         BoundaryCondition::Traction { factor, .. } => ("traction", factor),
         _ => return,
@@ -323,6 +332,7 @@ fn factor_in_time(condition: &BoundaryCondition) -> Option<&TimeFunction> {
         | BoundaryCondition::Parabolic { factor, .. }
         | BoundaryCondition::Developed { factor, .. }
         | BoundaryCondition::Shear { factor, .. } => factor.as_ref(),
+        BoundaryCondition::Profile(profile) => profile.factor.as_ref(),
         _ => None,
     }
 }
@@ -332,6 +342,8 @@ fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> Option<f64>
     match condition {
         BoundaryCondition::Velocity { value, .. } => numbers(value)?,
         BoundaryCondition::Developed { flux, .. } => return *flux,
+        // The mesh tells
+        BoundaryCondition::Profile(_) => return None,
         _ => Vec::new(),
     };
     if let Some(mesh) = case.given_mesh() {

@@ -13,6 +13,9 @@ pub fn check(findings: &mut Findings<'_>) {
         let help = "nothing has to be done if this is meant";
         findings.warning("domain.mesh.file", note.clone(), help);
     }
+    if let Some(fault) = case.given_mesh().and_then(MeshFile::fault) {
+        findings.error(&fault.key, fault.message, &fault.help);
+    }
     let is_made = matches!(case.domain, DomainSpec::Surface(_));
     if let DomainSpec::Surface(region) = &case.domain
         && region.data.is_none()

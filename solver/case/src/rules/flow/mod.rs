@@ -6,6 +6,7 @@ pub(super) mod fluid;
 pub(super) mod given_mesh;
 pub(super) mod mean_flow;
 pub(super) mod mesh;
+mod profile;
 pub(super) mod scalars;
 pub(super) mod tracers;
 mod viscosity;

@@ -140,6 +140,7 @@ fn sides(findings: &mut Findings<'_>) {
             | BoundaryCondition::Axis
             | BoundaryCondition::Periodic(_) => false,
             BoundaryCondition::Velocity { .. }
+            | BoundaryCondition::Profile(_)
             | BoundaryCondition::Parabolic { .. }
             | BoundaryCondition::Developed { .. }
             | BoundaryCondition::Pressure { .. }

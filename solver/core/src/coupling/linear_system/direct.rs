@@ -33,9 +33,16 @@ fn analysed<'a>(
     matrix: &SparseMatrix,
     unknowns: &Unknowns,
     timing: &mut Timing,
-) -> &'a mut DirectSolver {
+) -> Result<&'a mut DirectSolver, LinearError> {
     timing.measure(Stage::Factorisation, || {
-        solver.get_or_insert_with(|| Box::new(DirectSolver::new(matrix.pattern(), unknowns)))
+        let solver = match solver {
+            Some(solver) => solver,
+            none => {
+                let analysed = DirectSolver::new(&matrix.shared_pattern(), unknowns)?;
+                none.insert(Box::new(analysed))
+            }
+        };
+        Ok(&mut **solver)
     })
 }
 
@@ -72,7 +79,7 @@ impl SystemSolver for DirectSystem {
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
         let Self { matrix, unknowns, solver, .. } = self;
-        let solver = analysed(solver, matrix, unknowns, timing);
+        let solver = analysed(solver, matrix, unknowns, timing)?;
         let accuracy = corrected(solver, matrix, free, rhs, reduction, timing)?;
         self.accuracy = accuracy.unwrap_or(self.accuracy);
         Ok(())
@@ -85,7 +92,7 @@ impl SystemSolver for DirectSystem {
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
         let Self { matrix, unknowns, solver, .. } = self;
-        let solver = analysed(solver, matrix, unknowns, timing);
+        let solver = analysed(solver, matrix, unknowns, timing)?;
         solved(solver, matrix, rhs, reduction, timing).map(drop)
     }
 
@@ -106,7 +113,7 @@ impl SystemSolver for DirectSystem {
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
         let Self { matrix, unknowns, solver, .. } = self;
-        let solver = analysed(solver, matrix, unknowns, timing);
+        let solver = analysed(solver, matrix, unknowns, timing)?;
         solved_transposed(solver, matrix, sides, timing)
     }
 
@@ -116,7 +123,7 @@ impl SystemSolver for DirectSystem {
         timing: &mut Timing,
     ) -> Result<Vec<f64>, LinearError> {
         let Self { matrix, unknowns, solver, .. } = self;
-        let solver = analysed(solver, matrix, unknowns, timing);
+        let solver = analysed(solver, matrix, unknowns, timing)?;
         set_up_and(|solver| solver.inverse_of_dense(matrix, rigid), solver, matrix, timing)
     }
 
@@ -131,7 +138,7 @@ impl SystemSolver for DirectSystem {
     }
 
     fn recall(&mut self, memory: SolverMemory) -> Result<(), LinearError> {
-        let mut solver = DirectSolver::new(self.matrix.pattern(), &self.unknowns);
+        let mut solver = DirectSolver::new(&self.matrix.shared_pattern(), &self.unknowns)?;
         solver.recall(&self.matrix.shared_pattern(), &memory)?;
         self.solver = Some(Box::new(solver));
         Ok(())

@@ -122,8 +122,8 @@ impl SystemSolver for IterativeSystem {
             return sides.iter_mut().try_for_each(|side| self.solve(side, Some(ADJOINT), timing));
         }
         let matrix = self.matrix.to_sparse();
-        let analyse = || DirectSolver::new(matrix.pattern(), &self.unknowns);
-        let mut solver = timing.measure(Stage::Factorisation, analyse);
+        let analyse = || DirectSolver::new(&matrix.shared_pattern(), &self.unknowns);
+        let mut solver = timing.measure(Stage::Factorisation, analyse)?;
         let n_factor_entries = solver.n_factor_entries();
         if n_factor_entries > self.settings.max_factor_entries {
             return Err(LinearError::TooLarge { n_unknowns: matrix.n(), n_factor_entries });

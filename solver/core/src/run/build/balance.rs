@@ -28,7 +28,7 @@ pub fn check_net_inflow<const D: usize>(
     };
     let is_unknown = |(side, condition): (&String, &BoundaryCondition)| match condition {
         BoundaryCondition::Velocity { value, .. } => value.iter().any(|one| one.number().is_none()),
-        BoundaryCondition::Developed { .. } => true,
+        BoundaryCondition::Developed { .. } | BoundaryCondition::Profile(_) => true,
         BoundaryCondition::Parabolic { .. } => !is_round(side),
         _ => false,
     };

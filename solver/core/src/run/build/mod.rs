@@ -6,6 +6,7 @@ mod formulas;
 mod joints;
 mod magnets;
 mod motion_settings;
+mod profile;
 mod rod;
 mod scalars;
 mod section;

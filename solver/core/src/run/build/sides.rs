@@ -3,6 +3,7 @@
 use alewife_mesh::{Circle, Mesh, Point, SideShape};
 
 use super::formulas::{number, vector};
+use super::profile::profile;
 use super::section::{Amount, developed};
 
 use crate::case::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, normal_axis};
@@ -60,6 +61,7 @@ pub(super) fn side<const D: usize>(
                 traction(place, time) * factor_at(factor.as_ref(), time)
             }))
         }
+        BoundaryCondition::Profile(spec) => scaled(profile(spec, mesh, name)?, &spec.factor),
         BoundaryCondition::Developed { flux, peak, factor } => {
             scaled(developed(case, mesh, name, amount(name, *flux, *peak)?)?, factor)
         }

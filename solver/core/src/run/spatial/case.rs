@@ -5,7 +5,7 @@ use alewife_mesh::{Point, Sizing};
 use nalgebra::{Isometry3, Vector3};
 
 use crate::body::Pose;
-use crate::case::{Body, Model};
+use crate::case::{Body, Case, MeshFile, Model};
 use crate::contact::frame_of;
 use crate::coupling::{BodyShapes, Problem, ShapeError};
 use crate::gait::DeformedOutline;
@@ -50,7 +50,7 @@ impl SpatialCase {
         };
         Ok(Self {
             is_given: model.case.bodies_are_holes(),
-            domain: model.case.domain_in_space().ok_or_else(no_domain)?,
+            domain: model.case.domain_in_space().ok_or_else(|| no_domain(&model.case))?,
             sizing: sizing(&model.case),
             limits: limits(&model.case),
             motion: motion_settings(model, problem),
@@ -104,6 +104,9 @@ pub(super) fn move_into(domain: &Domain, solids: &mut [Solid]) -> Vec<Vector3<f6
     solids.iter_mut().map(into).collect()
 }
 
-pub(super) fn no_domain() -> RunError {
-    RunError::Unsupported("this domain is not one in three dimensions".to_owned())
+/// Why a case has no domain in space.
+pub(super) fn no_domain(case: &Case) -> RunError {
+    let fault = case.given_mesh().and_then(MeshFile::fault);
+    let planar = || "this domain is not one in three dimensions".to_owned();
+    RunError::Unsupported(fault.map_or_else(planar, |fault| fault.message))
 }

@@ -27,12 +27,12 @@ impl CaseMesh<3> for Dimension<3> {
         let case = &model.case;
         let holes = sides_of_bodies(model);
         if let (false, Some(given)) = (holes.is_empty(), case.given_mesh()) {
-            let given = given.spatial().ok_or_else(no_domain)?;
+            let given = given.spatial().ok_or_else(|| no_domain(case))?;
             let shifts = vec![Vector3::zeros(); holes.len()];
             return Ok(initial(given.mesh().with_bodies(&holes), shifts));
         }
         let (mut solids, sizing) = (solids(model)?, sizing(case));
-        let domain = case.domain_in_space().ok_or_else(no_domain)?;
+        let domain = case.domain_in_space().ok_or_else(|| no_domain(case))?;
         let shifts = move_into(&domain, &mut solids);
         check_cells::<3>(|limit| estimate_cells(&domain, &solids, &sizing, limit))?;
         let mesh = generate(&domain, &solids, &sizing)?;
@@ -40,7 +40,7 @@ impl CaseMesh<3> for Dimension<3> {
     }
 
     fn adopt(model: &Model, mesh: Mesh<3>) -> Result<InitialMesh<3>, RunError> {
-        let domain = model.case.domain_in_space().ok_or_else(no_domain)?;
+        let domain = model.case.domain_in_space().ok_or_else(|| no_domain(&model.case))?;
         let shifts = move_into(&domain, &mut solids(model)?);
         Ok(initial(mesh, shifts))
     }

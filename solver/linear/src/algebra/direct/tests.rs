@@ -42,7 +42,7 @@ fn rhs(n: usize) -> Vec<f64> {
 #[test]
 fn a_solution_has_a_residual_at_rounding() {
     let (matrix, unknowns) = chain(300);
-    let mut solver = DirectSolver::new(matrix.pattern(), &unknowns);
+    let mut solver = DirectSolver::new(&matrix.shared_pattern(), &unknowns).unwrap();
     solver.set_up(&matrix).unwrap();
     assert!(solver.solve(&matrix, &mut rhs(300)).unwrap().residual < 1e-15);
 }
@@ -51,7 +51,7 @@ fn a_solution_has_a_residual_at_rounding() {
 #[test]
 fn next_to_nothing_gives_nothing() {
     let (matrix, unknowns) = chain(300);
-    let mut solver = DirectSolver::new(matrix.pattern(), &unknowns);
+    let mut solver = DirectSolver::new(&matrix.shared_pattern(), &unknowns).unwrap();
     solver.set_up(&matrix).unwrap();
     for size in [1e-240, 1e-260, 1e-300, 1e-315, 0.0] {
         let mut x: Vec<f64> = rhs(300).iter().map(|value| size * value).collect();
@@ -65,7 +65,7 @@ fn next_to_nothing_gives_nothing() {
 fn earlier_factors_give_the_solution_of_the_changed_matrix() {
     let n = 300;
     let (mut matrix, unknowns) = chain(n);
-    let mut solver = DirectSolver::new(matrix.pattern(), &unknowns);
+    let mut solver = DirectSolver::new(&matrix.shared_pattern(), &unknowns).unwrap();
     // So small a matrix is never worth it by itself.
     solver.policy = ReusePolicy::from_costs(1e9, 1.0);
     solver.set_up(&matrix).unwrap();
@@ -90,7 +90,7 @@ fn a_solver_that_recalls_gives_the_same_bits_by_the_same_factors() {
     let (mut matrix, unknowns) = chain(n);
     let pattern = matrix.shared_pattern();
     let new = || {
-        let mut solver = DirectSolver::new(&pattern, &unknowns);
+        let mut solver = DirectSolver::new(&pattern, &unknowns).unwrap();
         solver.policy = ReusePolicy::from_costs(1e9, 1.0);
         solver
     };
@@ -118,7 +118,8 @@ fn a_solver_that_recalls_gives_the_same_bits_by_the_same_factors() {
     solver.mark();
     assert_ne!(solver.memory(), memory);
     let (smaller, _) = chain(n - 3);
-    let foreign = DirectSolver::new(smaller.pattern(), &chain(n - 3).1)
+    let foreign = DirectSolver::new(&smaller.shared_pattern(), &chain(n - 3).1)
+        .unwrap()
         .recall(&smaller.shared_pattern(), &memory);
     assert_eq!(foreign, Err(ForeignMemory { n_unknowns: n - 3 }.into()));
 }
@@ -127,7 +128,7 @@ fn a_solver_that_recalls_gives_the_same_bits_by_the_same_factors() {
 fn factors_of_too_different_a_matrix_are_given_up() {
     let n = 300;
     let (mut matrix, unknowns) = chain(n);
-    let mut solver = DirectSolver::new(matrix.pattern(), &unknowns);
+    let mut solver = DirectSolver::new(&matrix.shared_pattern(), &unknowns).unwrap();
     solver.policy = ReusePolicy::from_costs(6.0, 1.0);
     solver.set_up(&matrix).unwrap();
     set_convection(&mut matrix, &unknowns, 2.0);
@@ -141,7 +142,7 @@ fn factors_of_too_different_a_matrix_are_given_up() {
 fn an_unchanged_matrix_is_not_factorised_again() {
     let n = 90;
     let (mut matrix, unknowns) = chain(n);
-    let mut solver = DirectSolver::new(matrix.pattern(), &unknowns);
+    let mut solver = DirectSolver::new(&matrix.shared_pattern(), &unknowns).unwrap();
     solver.set_up(&matrix).unwrap();
     // A solution with these factors is not finite.
     solver.factors = Factors::new(&solver.analysis);
@@ -160,7 +161,7 @@ fn an_unchanged_matrix_is_not_factorised_again() {
 #[test]
 fn infinite_values_are_an_error() {
     let (mut matrix, unknowns) = chain(30);
-    let mut solver = DirectSolver::new(matrix.pattern(), &unknowns);
+    let mut solver = DirectSolver::new(&matrix.shared_pattern(), &unknowns).unwrap();
     solver.set_up(&matrix).unwrap();
     let mut b = rhs(30);
     b[7] = f64::NAN;

@@ -1,5 +1,7 @@
 //! `IterativeSolver`: GCR for saddle-point systems, with a direct solver as the last resort.
 
+use alewife_interrupt::check;
+
 use super::super::direct::DirectSolver;
 use super::super::fingerprint::{Fingerprints, hash, hash_of_values};
 use super::super::memory::{ForeignMemory, SolverMemory};
@@ -182,7 +184,7 @@ impl IterativeSolver {
         }
         if memory.is_direct {
             let matrix = matrix.to_sparse();
-            let mut solver = DirectSolver::new(matrix.pattern(), &self.system.unknowns());
+            let mut solver = DirectSolver::new(&matrix.shared_pattern(), &self.system.unknowns())?;
             solver.recall(&matrix.shared_pattern(), memory)?;
             self.direct = Some(Box::new(Direct { solver, matrix }));
         }
@@ -218,6 +220,7 @@ impl IterativeSolver {
         let limit = if uses_earlier { self.mass_limit } else { f64::INFINITY };
         let mut mass = MassRows::new(limit, self.system.has_held_pressure, tolerance);
         loop {
+            check()?;
             if !reached.is_finite() {
                 return Err(LinearError::NotFinite);
             }
@@ -244,7 +247,7 @@ impl IterativeSolver {
             let b = system.single(&iterate.residual, reached);
             let Correction { x, iterations: more } =
                 space.correction(&mut system, b, |iterations, residual| {
-                    iterations < most && residual > wanted
+                    iterations < most && residual > wanted && check().is_ok()
                 });
             iterations += more.max(1);
             iterate = system.corrected(&iterate, rhs, reached, &x);
@@ -258,7 +261,7 @@ impl IterativeSolver {
     /// of the right-hand side.
     fn take_over(&self, matrix: &SaddleMatrix, residual: f64) -> Result<Direct, LinearError> {
         let matrix = matrix.to_sparse();
-        let solver = DirectSolver::new(matrix.pattern(), &self.system.unknowns());
+        let solver = DirectSolver::new(&matrix.shared_pattern(), &self.system.unknowns())?;
         let n_factor_entries = solver.n_factor_entries();
         let (iterations, n_unknowns) = (self.iterations, matrix.n());
         if n_factor_entries > self.settings.max_factor_entries {
@@ -337,6 +340,7 @@ impl LinearSolver for IterativeSolver {
             direct.matrix = matrix.to_sparse();
             return direct.solver.set_up(&direct.matrix);
         }
+        check()?;
         let preconditioner = Preconditioner::new(&self.system, &self.weights, matrix);
         tracing::debug!(bytes = preconditioner.n_bytes(), "set up a preconditioner");
         let space = KrylovSpace::default();

@@ -3,15 +3,19 @@
 
 use std::ops::Range;
 
+use alewife_interrupt::Listener;
 use faer::Accum;
 
 use super::super::analysis::Analysis;
 use super::super::dense::{self, NoPivot, PanelShape, PivotRows};
 use super::super::front::Front;
+use super::runs::{add_runs, runs};
 use crate::sparse::index::to_u32;
 
 /// Columns of the border that a thread updates at a time in fronts that threads share.
 const SHARED_COLUMNS: usize = 96;
+/// Entries of a panel from which on its elimination takes much longer than to ask whether the work is to end.
+const LARGE_PANEL: usize = 20_000;
 
 /// A factorisation under way: what all fronts read.
 #[derive(Debug, Clone, Copy)]
@@ -26,6 +30,8 @@ pub(super) struct FactorisationContext<'a> {
     pub arch: pulp::Arch,
     /// Whether a front may use all threads.
     pub shared: bool,
+    /// Says whether the work is to end.
+    pub listener: &'a Listener,
 }
 
 /// Entries of a front and the factor of their values.
@@ -35,6 +41,15 @@ struct ScaledEntries {
 }
 
 impl FactorisationContext<'_> {
+    /// Whether the work is to end before a front.
+    pub fn is_to_end(&self, front: &Front) -> bool {
+        if front.m() * front.k < LARGE_PANEL {
+            self.listener.is_requested()
+        } else {
+            self.listener.check().is_err()
+        }
+    }
+
     fn entries(&self, front: &Front) -> [ScaledEntries; 2] {
         let Range { start, end } = front.entries;
         let first_pressure = front.first_pressure_entry;
@@ -178,10 +193,11 @@ pub(super) fn factorise_delayed<'a>(
     }
     let pivot_floors: Vec<f64> =
         columns.iter().map(|&position| context.pivot_floors[position as usize]).collect();
-    let partial = dense::lu_delaying(matrix.l, m, matrix.pivot_rows(), &pivot_floors);
+    let partial =
+        dense::lu_delaying(context.listener, matrix.l, m, matrix.pivot_rows(), &pivot_floors);
     let p = partial.pivots;
     matrix.permute_border_rows(&partial.rows);
-    matrix.eliminate_from_border(p);
+    matrix.eliminate_from_border(p, context.listener);
     let border = context.analysis.border_of(front);
     let permuted = |positions: &[u32], order: &[u32]| -> Vec<u32> {
         let own = order.iter().map(|&index| positions[index as usize]);
@@ -274,7 +290,8 @@ impl FrontMatrix<'_> {
         use rayon::prelude::*;
         let (k, m, r) = (self.k, self.m, self.r());
         let shape = PanelShape { rows: m, columns: k, stride: m };
-        dense::lu(context.arch, self.l, shape, self.pivot_rows(), swaps)?;
+        let panel = dense::Panel { arch: context.arch, listener: context.listener, shape };
+        panel.lu(self.l, self.pivot_rows(), swaps)?;
         let pivots = (0..k).map(|column| self.l[column * m + column].abs());
         if pivots.zip(pivot_floors).any(|(pivot, floor)| pivot <= *floor) {
             return Err(NoPivot);
@@ -283,13 +300,25 @@ impl FrontMatrix<'_> {
             return Ok(());
         }
         let (l, swaps) = (&*self.l, &*swaps);
+        let update = |[u, c]: [&mut [f64]; 2]| {
+            // Where it is to end, what is left out is not looked at
+            if context.listener.check().is_ok() {
+                dense::update(l, m, swaps, u, c, accum);
+            }
+        };
         if context.shared {
             let columns = self.u.par_chunks_mut(k * SHARED_COLUMNS);
             columns
                 .zip(self.c.par_chunks_mut(r * SHARED_COLUMNS))
-                .for_each(|(u, c)| dense::update(l, m, swaps, u, c, accum));
+                .for_each(|(u, c)| update([u, c]));
         } else {
-            dense::update(l, m, swaps, self.u, self.c, accum);
+            let columns = dense::columns_at_once(r, 2 * k * m);
+            if columns >= r {
+                dense::update(l, m, swaps, self.u, self.c, accum);
+            } else {
+                let columns_of_u = self.u.chunks_mut(k * columns);
+                columns_of_u.zip(self.c.chunks_mut(r * columns)).for_each(|(u, c)| update([u, c]));
+            }
         }
         Ok(())
     }
@@ -308,10 +337,10 @@ impl FrontMatrix<'_> {
     }
 
     /// Eliminates p pivots from the columns of the border, in delayed rows too.
-    fn eliminate_from_border(&mut self, p: usize) {
+    fn eliminate_from_border(&mut self, p: usize, listener: &Listener) {
         let Self { l, u, c, k, m, .. } = self;
         let (k, m, r) = (*k, *m, self.m - self.k);
-        for column in 0..r {
+        for column in (0..r).take_while(|_| !listener.is_requested()) {
             let u = &mut u[column * k..(column + 1) * k];
             let c = &mut c[column * r..(column + 1) * r];
             for pivot in 0..p {
@@ -353,28 +382,5 @@ impl FrontMatrix<'_> {
             upper.extend_from_slice(&self.u[column * k..column * k + p]);
         }
         upper
-    }
-}
-
-/// Indices that follow each other, such as those of the velocities at a node.
-#[derive(Debug, Clone, Copy)]
-struct Run {
-    first: u32,
-    length: u32,
-}
-
-/// Runs of indices, less `start`.
-fn runs(indices: &[u32], start: usize) -> Vec<Run> {
-    let all = indices.chunk_by(|last, next| last + 1 == *next);
-    all.map(|run| Run { first: run[0] - to_u32(start), length: to_u32(run.len()) }).collect()
-}
-
-/// Adds values, one run after the other, to those they belong to.
-fn add_runs(runs: &[Run], mut values: &[f64], target: &mut [f64]) {
-    for run in runs {
-        let (these, rest) = values.split_at(run.length as usize);
-        let target = &mut target[run.first as usize..][..these.len()];
-        target.iter_mut().zip(these).for_each(|(target, value)| *target += value);
-        values = rest;
     }
 }

@@ -2,13 +2,16 @@
 
 mod delays;
 mod elimination;
+mod runs;
 mod scaling;
 mod traversal;
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
+use alewife_interrupt::{Listener, Stopped};
 use rayon::prelude::*;
+use thiserror::Error;
 
 pub(super) use self::delays::Delay;
 use self::delays::Delays;
@@ -42,6 +45,17 @@ pub struct Factors {
     pub(super) pressure_scale: f64,
     pub(super) arch: pulp::Arch,
     pub(super) scratch: Scratch,
+}
+
+/// Why a matrix was not factorised.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NoFactors {
+    /// It has no inverse, or none that double precision can find.
+    #[error("{} unknowns are not determined by the equations", .0.unknowns.len())]
+    Singular(Singular),
+    /// The work was to end.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
 /// A subtree with the memory it is factorised in.
@@ -120,13 +134,16 @@ impl Factors {
     /// When the number of entries is not that of the analysed pattern.
     ///
     /// # Errors
-    /// When pivots are missing: the matrix is singular to working precision.
+    /// When pivots are missing: the matrix is singular to working precision; or when the work of this thread is to
+    /// end. There are no factors then.
     pub fn factorise(
         &mut self,
         analysis: &Analysis,
         matrix: &SparseMatrix,
-    ) -> Result<(), Singular> {
+    ) -> Result<(), NoFactors> {
         assert_eq!(matrix.pattern().n_entries(), analysis.n_entries, "the analysed pattern");
+        let listener = Listener::here();
+        listener.check()?;
         self.delayed.clear();
         self.pressure_scale = scale_pressures(analysis, matrix, &mut self.pivot_floors);
         let context = FactorisationContext {
@@ -136,6 +153,7 @@ impl Factors {
             pivot_floors: &self.pivot_floors,
             arch: self.arch,
             shared: false,
+            listener: &listener,
         };
         let mut factors =
             SubtreeFactors { panels: &mut self.values, pivot_rows: &mut self.pivot_rows };
@@ -146,9 +164,14 @@ impl Factors {
             factors = others;
         }
         let mut delayed_contributions = BTreeMap::new();
-        for result in factorise_subtrees(context, tasks, &self.workspaces) {
+        let results = factorise_subtrees(context, tasks, &self.workspaces);
+        // Fronts are left out since then
+        if listener.was_ended() {
+            return Err(Stopped.into());
+        }
+        for result in results {
             if let Some(singular) = result.singular {
-                return Err(singular);
+                return Err(NoFactors::Singular(singular));
             }
             self.delayed.extend(result.delayed_factors);
             delayed_contributions.extend(result.delayed_contributions);
@@ -157,9 +180,12 @@ impl Factors {
         let context = FactorisationContext { shared: true, ..context };
         let workspace = &mut self.top_workspace;
         let result = factorise_subtree(context, &analysis.top, factors, workspace, incoming, None);
+        if listener.was_ended() {
+            return Err(Stopped.into());
+        }
         self.delayed.extend(result.delayed_factors);
         self.place_delayed(analysis, &delayed_contributions);
-        result.singular.map_or(Ok(()), Err)
+        result.singular.map_or(Ok(()), |singular| Err(NoFactors::Singular(singular)))
     }
 
     /// Replaces positions by slots in the fronts with delayed pivots.

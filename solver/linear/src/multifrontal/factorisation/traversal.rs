@@ -75,7 +75,7 @@ pub(super) struct SubtreeResult {
     pub singular: Option<Singular>,
 }
 
-/// Assembles and eliminates the fronts of a subtree.
+/// Assembles and eliminates the fronts of a subtree, or some of them where the work is to end.
 ///
 /// The contribution of its last front goes to `outgoing`, where there is one.
 pub(super) fn factorise_subtree(
@@ -92,6 +92,9 @@ pub(super) fn factorise_subtree(
     let Workspace { stack, swaps } = workspace;
     for index in subtree.fronts.clone() {
         let front = &analysis.fronts[index];
+        if context.is_to_end(front) {
+            return result;
+        }
         let panel = panels.split_off_mut(..front.n_values()).expect("factors of all fronts");
         let pivot_rows = pivot_rows.split_off_mut(..front.k).expect("pivots of all fronts");
         if swaps.len() < front.k {
@@ -113,6 +116,9 @@ pub(super) fn factorise_subtree(
         let target = FrontTarget { panel, contribution, pivot_rows, swaps };
         if !has_delayed && factorise_static(context, front, children.clone(), target).is_ok() {
             continue;
+        }
+        if context.listener.was_ended() {
+            return result;
         }
         let DelayedElimination { factors, contribution } =
             factorise_delayed(context, front, children);

@@ -1,6 +1,5 @@
-//! `MeshFile` and `RegionSpec`: domains that are given as a mesh of Gmsh, or as a closed surface.
+//! `MeshFile`: a domain that is given as a mesh of Gmsh, or that was made inside a surface.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use alewife_mesh::spatial::Imported;
@@ -9,9 +8,8 @@ use alewife_mesh::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::extent::Extent;
-#[cfg(test)]
-use crate::spec::number::{Degrees, Positive};
+use super::region_mesh::{RegionFault, RegionMesh};
+use crate::spec::extent::Extent;
 
 /// `domain.mesh`: a mesh in a file.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -32,15 +30,27 @@ pub struct MeshFile {
     /// What the file holds.
     #[serde(skip)]
     #[cfg_attr(test, schemars(skip))]
-    pub(crate) contents: Option<Arc<Contents>>,
+    pub(crate) source: MeshSource,
     /// In space, what is around the bodies that are holes of it, where there are some.
     #[serde(skip)]
     #[cfg_attr(test, schemars(skip))]
     pub(crate) around_bodies: Option<Imported>,
 }
 
-fn one() -> f64 {
+pub(super) fn one() -> f64 {
     1.0
+}
+
+/// Where a mesh comes from.
+#[derive(Debug, Clone, Default)]
+pub(crate) enum MeshSource {
+    /// It has not been read.
+    #[default]
+    Unread,
+    /// A file.
+    File(Arc<Contents>),
+    /// The inside of a surface, which is meshed once that is asked for.
+    Inside(Arc<RegionMesh>),
 }
 
 /// Files with the same content are the same wherever they are.
@@ -140,27 +150,40 @@ impl Contents {
 }
 
 impl MeshFile {
-    /// A mesh that was made inside a surface.
-    pub(crate) fn of_region(contents: Arc<Contents>) -> Self {
-        let contents = Some(contents);
+    /// The mesh inside a surface.
+    pub(crate) fn inside(region: Arc<RegionMesh>) -> Self {
         Self {
             file: String::new(),
             scale: 1.0,
             sides: Vec::new(),
             checksum: None,
-            contents,
+            source: MeshSource::Inside(region),
             around_bodies: None,
+        }
+    }
+
+    fn contents(&self) -> Option<&Contents> {
+        match &self.source {
+            MeshSource::Unread => None,
+            MeshSource::File(contents) => Some(contents),
+            MeshSource::Inside(region) => region.contents().ok(),
+        }
+    }
+
+    /// Why the inside of its surface has no mesh, if it has none.
+    #[must_use]
+    pub fn fault(&self) -> Option<RegionFault> {
+        match &self.source {
+            MeshSource::Inside(region) => region.contents().err(),
+            MeshSource::Unread | MeshSource::File(_) => None,
         }
     }
 
     /// Pairs the nodes of sides, each pair by its names.
     pub(crate) fn pair(&mut self, sides: &[[String; 2]]) -> Result<(), UnpairedSides> {
-        let Some(mut contents) = self.contents.take() else { return Ok(()) };
         // A mesh that was just read is held by nobody else
-        let Some(own) = Arc::get_mut(&mut contents) else {
-            self.contents = Some(contents);
-            return Ok(());
-        };
+        let MeshSource::File(contents) = &mut self.source else { return Ok(()) };
+        let Some(own) = Arc::get_mut(contents) else { return Ok(()) };
         let failed = |names: Vec<String>| {
             move |reason: Unpaired| {
                 let side = match &reason {
@@ -189,30 +212,32 @@ impl MeshFile {
                 *imported = Imported::new(paired.mesh);
             }
         }
-        self.contents = Some(contents);
         Ok(())
     }
 
     /// Along which coordinates its sides are periodic.
     #[must_use]
     pub fn periodic(&self) -> [bool; 3] {
-        self.contents.as_ref().map_or([false; 3], |contents| contents.periodic)
+        self.contents().map_or([false; 3], |contents| contents.periodic)
     }
 
     fn named_sides(&self) -> &[NamedSide] {
-        self.contents.as_ref().map_or(&[], |contents| contents.sides.as_slice())
+        self.contents().map_or(&[], |contents| contents.sides.as_slice())
     }
 
     /// What was made of the file that its author may not expect, a sentence each.
     #[must_use]
     pub fn notes(&self) -> &[String] {
-        self.contents.as_ref().map_or(&[], |contents| contents.notes.as_slice())
+        self.contents().map_or(&[], |contents| contents.notes.as_slice())
     }
 
     /// Names of its sides.
     #[must_use]
     pub fn side_names(&self) -> Vec<&str> {
-        self.named_sides().iter().map(|side| side.name.as_str()).collect()
+        match &self.source {
+            MeshSource::Inside(region) => region.sides().iter().map(String::as_str).collect(),
+            _ => self.named_sides().iter().map(|side| side.name.as_str()).collect(),
+        }
     }
 
     /// What a side looks like; `None` where there is none of that name.
@@ -224,26 +249,26 @@ impl MeshFile {
     /// The smallest box around it.
     #[must_use]
     pub fn extent(&self) -> Extent {
-        let extent = self.contents.as_ref().map(|contents| contents.extent);
+        let extent = self.contents().map(|contents| contents.extent);
         extent.unwrap_or_else(|| Extent::between(&[], &[]))
     }
 
     /// Its number of cells.
     #[must_use]
     pub fn n_cells(&self) -> usize {
-        self.contents.as_ref().map_or(0, |contents| contents.n_cells)
+        self.contents().map_or(0, |contents| contents.n_cells)
     }
 
     /// Its area, in space its volume (m2, m3).
     #[must_use]
     pub fn measure(&self) -> f64 {
-        self.contents.as_ref().map_or(0.0, |contents| contents.measure)
+        self.contents().map_or(0.0, |contents| contents.measure)
     }
 
     /// Its mesh in the plane; `None` in space.
     #[must_use]
     pub fn planar(&self) -> Option<&Mesh<2>> {
-        match &self.contents.as_ref()?.mesh {
+        match &self.contents()?.mesh {
             GivenMesh::Planar(mesh) => Some(mesh),
             GivenMesh::Spatial(_) => None,
         }
@@ -252,7 +277,7 @@ impl MeshFile {
     /// Its mesh in space; `None` in the plane.
     #[must_use]
     pub fn spatial(&self) -> Option<&Imported> {
-        match &self.contents.as_ref()?.mesh {
+        match &self.contents()?.mesh {
             GivenMesh::Planar(_) => None,
             GivenMesh::Spatial(imported) => Some(imported),
         }
@@ -267,76 +292,6 @@ impl MeshFile {
     /// The content of the file; `None` of a mesh that was made inside a surface.
     #[must_use]
     pub fn bytes(&self) -> Option<&[u8]> {
-        self.contents.as_ref()?.bytes.as_deref()
-    }
-}
-
-/// `domain.surface`: the inside of a closed surface, from an STL, OBJ or PLY file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct RegionSpec {
-    /// Path of the file, relative to the file in which it is written.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub file: Option<String>,
-    /// The triangles of the file, as runs write them in its place.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub data: Option<String>,
-    /// The solids of an STL file as text, or the groups of an OBJ file, as runs write them.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub solids: Vec<NamedSolid>,
-    /// Factor that makes its lengths those of the case (1).
-    #[serde(default = "one")]
-    #[cfg_attr(test, schemars(with = "Positive"))]
-    pub scale: f64,
-    /// Largest angle by which a smooth wall turns at an edge of triangles (degrees); sharper edges stay sharp.
-    #[serde(default = "smooth")]
-    #[cfg_attr(test, schemars(with = "Degrees"))]
-    pub smooth: f64,
-    /// Sides by their names; triangles of none of them are on the side of the name of their solid, or on `wall`.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub sides: BTreeMap<String, SidePart>,
-    /// Its mesh, once it is read.
-    #[serde(skip)]
-    #[cfg_attr(test, schemars(skip))]
-    pub(crate) filled: Option<MeshFile>,
-}
-
-fn smooth() -> f64 {
-    30.0
-}
-
-/// Triangles of a file that have one name.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct NamedSolid {
-    /// Their name.
-    pub name: String,
-    /// How many there are.
-    pub triangles: usize,
-}
-
-/// The part of a surface that is a side.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum SidePart {
-    /// The triangles in a plane.
-    Plane {
-        /// A point of the plane (m).
-        point: [f64; 3],
-        /// A direction across it.
-        normal: [f64; 3],
-    },
-    /// The triangles of a solid of an STL file as text, or of a group of an OBJ file.
-    Solid(String),
-}
-
-impl RegionSpec {
-    /// Its mesh; `None` where it has not been read.
-    #[must_use]
-    pub fn mesh(&self) -> Option<&MeshFile> {
-        self.filled.as_ref()
+        self.contents()?.bytes.as_deref()
     }
 }
