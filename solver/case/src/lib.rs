@@ -37,6 +37,7 @@ pub use spec::body::gait::{
 };
 pub use spec::body::given::hole::HoleShape;
 pub use spec::body::given::midline::{MidlineGait, MidlineLaw, MidlineTable, MidlineValues};
+pub use spec::body::given::surface::{SurfaceCenter, SurfaceShape};
 pub use spec::body::joint::{Ball, Hinge, Joint, JointKind, Slider};
 pub use spec::body::link::{Link, ShapedLink};
 pub use spec::body::motion::by_axis::{

@@ -49,6 +49,7 @@ fn starfish(mesh: SolidMesh<3>, young: f64, poisson: f64) -> Result<SoftBody<3>,
         }],
         material_of: Vec::new(),
         fibres: vec![Fibres { directions: vec![Vector3::z(); cells.len()], cells, stiffness: 2e6 }],
+        rigid: Vec::new(),
         held: rail.iter().flat_map(|node| [3 * node + 1, 3 * node + 2]).collect(),
         mesh,
     };

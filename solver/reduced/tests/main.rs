@@ -3,8 +3,10 @@
 mod cases;
 mod gradients;
 mod kept_volumes;
+mod rigid_parts;
 mod searches;
 mod shipped;
+mod surfaces;
 mod swimmers;
 mod tree;
 mod twin;

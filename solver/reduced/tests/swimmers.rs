@@ -73,6 +73,7 @@ pub fn bar<const D: usize>(
             cells,
             stiffness: 3e4,
         }],
+        rigid: Vec::new(),
         held: end.iter().flat_map(|node| D * node + 1..D * (node + 1)).collect(),
         mesh,
     };

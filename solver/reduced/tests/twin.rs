@@ -29,6 +29,7 @@ fn star(young: f64, poisson: f64) -> SoftBody<2> {
         materials: vec![alewife_solid::material::Material { young, poisson, ..MATERIAL }],
         material_of: Vec::new(),
         fibres: vec![Fibres { directions: vec![Vector3::y(); cells.len()], cells, stiffness: 1e5 }],
+        rigid: Vec::new(),
         held: rail.iter().map(|node| 2 * node + 1).collect(),
         mesh,
     };

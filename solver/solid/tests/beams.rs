@@ -101,7 +101,11 @@ fn a_cantilever_has_the_frequencies_of_a_beam() {
 
 fn swings_as_a_beam(poisson: f64) {
     let body = strip(40, poisson);
-    let found = body.frequencies(&body.at_rest(), &[], 2).expect("it has modes");
+    let found = {
+        let none = vec![0.0; body.n_components()];
+        body.frequencies(&body.at_rest(), &[], &none, 2)
+    };
+    let found = found.expect("it has modes");
     let speed = (bending_stiffness(poisson) / (1e3 * THICKNESS)).sqrt();
     for (found, wave) in found.iter().zip([1.875_104_068_711_961, 4.694_091_132_974_175_f64]) {
         let error = found / (wave * wave * speed) - 1.0;

@@ -6,4 +6,5 @@ mod convergence;
 mod incompressible;
 mod meshes;
 mod patch;
+mod rigid;
 mod time;

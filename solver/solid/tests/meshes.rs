@@ -37,6 +37,7 @@ pub fn solid<const D: usize>(
         materials: vec![material],
         material_of: Vec::new(),
         fibres: Vec::new(),
+        rigid: Vec::new(),
         held,
     };
     Solid::new(spec).expect("it is a solid")

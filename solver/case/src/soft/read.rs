@@ -5,10 +5,11 @@ use serde::Deserialize;
 use super::spec::SoftCase;
 use crate::read::case_text::{Located, locate, source_beside};
 use crate::read::files::read_mesh::bytes_of;
+use crate::read::files::surface_file;
 use crate::read::{UntypedCase, collect_numbers, location, wrong};
 use crate::text::diagnostic::{CaseError, Diagnostic, Severity};
 use crate::text::source::{Location, Origin};
-use crate::text::tree::{TomlNode, TreeError};
+use crate::text::tree::{TomlNode, TomlValue, TreeError};
 use crate::text::type_error::Mismatch;
 
 /// A soft case and where everything in it is written.
@@ -75,7 +76,8 @@ impl SoftFile {
 
     fn typed(untyped: UntypedCase) -> Result<Self, CaseError> {
         let file = untyped.file().to_owned();
-        let UntypedCase { root, names: [name, _], .. } = untyped;
+        let UntypedCase { mut root, names: [name, _], .. } = untyped;
+        surfaces(&mut root).map_err(wrong)?;
         let case = SoftCase::deserialize(&root).map_err(|error| {
             let path = error.path();
             let key = match error.mismatch() {
@@ -143,6 +145,18 @@ impl SoftFile {
         }
         Ok(())
     }
+}
+
+/// Puts the triangles of files in the place of their names, so that a case stands for itself.
+fn surfaces(root: &mut TomlNode) -> Result<(), TreeError> {
+    let solids = root.table_mut().and_then(|entries| entries.get_mut("solid"));
+    let Some(TomlNode { value: TomlValue::Array(solids), .. }) = solids else { return Ok(()) };
+    for solid in solids {
+        let shape = solid.table_mut().and_then(|entries| entries.get_mut("shape"));
+        let surface = shape.and_then(TomlNode::table_mut).and_then(|all| all.get_mut("surface"));
+        surface.map_or(Ok(()), surface_file::resolve)?;
+    }
+    Ok(())
 }
 
 /// A file that is not there, with where it is from if that is known.

@@ -16,7 +16,7 @@ use crate::spec::number::{NonNegative, Positive};
 pub struct SoftSolid {
     /// Its name.
     pub name: String,
-    /// A shape of the plane: disc, ellipse, spline, fish, flagellate or tube, with its origin at 0.
+    /// A shape of the plane: disc, ellipse, spline, fish, flagellate or tube; in space a surface; with its origin at 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<ShapeSpec>,
     /// A polygon, in space a plate of its form.
@@ -40,6 +40,9 @@ pub struct SoftSolid {
     /// Parts of other materials, such as stiff ones; the last that holds a cell counts.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub part: Vec<MaterialPart>,
+    /// Parts that move as rigid bodies; they may not touch each other, nor be held.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rigid: Vec<RigidSpec>,
     /// Active fibres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fibre: Vec<FibreSpec>,
@@ -168,6 +171,18 @@ pub struct MaterialPart {
     pub region: Region,
     /// What they are made of.
     pub material: MaterialSpec,
+}
+
+/// `rigid`: cells that move as a rigid body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RigidSpec {
+    /// Which cells: those whose centre lies there.
+    pub region: Region,
+    /// Density at rest (kg/m3).
+    #[cfg_attr(test, schemars(with = "Positive"))]
+    pub density: f64,
 }
 
 /// A box: what lies in it, its faces included, is meant.

@@ -188,10 +188,14 @@ impl<const D: usize> Backward<'_, D> {
         let (levels, solid) = (&self.trajectory.levels, &body.solid);
         let motion = Trajectory::motion(levels, step);
         let targets = &plan.targets[plan.frame_of(step)];
-        // Loads are dead: derivatives do not ask for them
-        let none = vec![0.0; motion.places.len()];
+        // Loads are dead: derivatives ask for them only where their torque changes with what a rigid part turns
+        let loads = if solid.spec().rigid.is_empty() {
+            vec![0.0; motion.places.len()]
+        } else {
+            body.loads(&motion.places, &motion.velocities)
+        };
         let potential =
-            solid.potential_of_step(&motion, plan.scheme, plan.step(), targets, &none)?;
+            solid.potential_of_step(&motion, plan.scheme, plan.step(), targets, &loads)?;
         let reached = &levels[step + 1].places;
         let difference = Difference::new(plan.scheme, plan.step(), motion.before.is_some());
         let [a0, a1, a2] = difference.factors;

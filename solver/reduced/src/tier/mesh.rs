@@ -8,10 +8,11 @@ use alewife_mesh::{
 };
 use alewife_solid::solid::{Order, SolidError, SolidMesh};
 
+use super::surface::inside_of_surface;
 use crate::soft::{Gradient, Plan, Seeds, SoftBody, SoftError, Trajectory};
-use alewife_case::Diagnostic;
 use alewife_case::soft::SoftFile;
 use alewife_case::soft::solid::{GridSpec, OutlineSpec, SoftSolid, SolidOrder};
+use alewife_case::{Diagnostic, ShapeSpec};
 
 /// Meshes and motions of bodies of this many dimensions.
 ///
@@ -88,9 +89,14 @@ impl SolidOf<3> for Bodies {
             let mesh = SolidMesh::<3>::of_grid(n, |at| place(grid, at));
             return meshed(file, "solid.0.grid", mesh, solid.order);
         }
+        if let Some(ShapeSpec::Surface(surface)) = &solid.shape {
+            let mesh = inside_of_surface(file, solid, surface)?;
+            return Ok(SolidMesh::of_mesh(&mesh, order(solid)));
+        }
         let Some(outline) = &solid.outline else {
             let message = "a shape of the plane has no inside in space".to_owned();
-            return Err(file.error("solid.0.shape", message, "write outline, grid or mesh"));
+            let help = "write shape.surface, outline, grid or mesh";
+            return Err(file.error("solid.0.shape", message, help));
         };
         let plate = plate(&inside(file, solid, outline)?, outline);
         cells(file, "solid.0.outline.points", plate, solid.order)
@@ -140,11 +146,15 @@ fn given<const D: usize>(file: &SoftFile, solid: &SoftSolid) -> Result<SolidMesh
         let name = file.mesh.as_ref().map_or("", |mesh| &mesh.name);
         file.error("solid.0.mesh.file", format!("{name}: {}", error.found), &error.accepted)
     })?;
-    let order = match solid.order {
+    Ok(SolidMesh::of_mesh(&mesh, order(solid)))
+}
+
+/// Degree of the shape functions of a solid.
+fn order(solid: &SoftSolid) -> Order {
+    match solid.order {
         SolidOrder::Linear => Order::Linear,
         SolidOrder::Quadratic => Order::Quadratic,
-    };
-    Ok(SolidMesh::of_mesh(&mesh, order))
+    }
 }
 
 /// Triangles inside of a polygon.

@@ -13,6 +13,7 @@ mod record;
 mod rounds;
 mod series;
 mod solid;
+mod surface;
 
 pub use compare::{Compared, compare};
 pub use evaluate::{Kind, Seeker, WayAndWork};

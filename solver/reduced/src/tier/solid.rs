@@ -3,7 +3,7 @@
 use crate::soft::{Curve, FacetLaw, SoftBody, SoftError};
 use alewife_mesh::Point;
 use alewife_solid::material::{Law, Material};
-use alewife_solid::solid::{Fibres, Frame, Solid, SolidMesh, SolidSpec};
+use alewife_solid::solid::{Fibres, Frame, RigidPart, Solid, SolidError, SolidMesh, SolidSpec};
 use nalgebra::Vector3;
 
 use alewife_case::soft::SoftFile;
@@ -66,6 +66,15 @@ pub(super) fn body<const D: usize>(
         }
         cells.into_iter().for_each(|cell| material_of[cell] = part + 1);
     }
+    let mut rigid = Vec::new();
+    for (part, spec) in solid.rigid.iter().enumerate() {
+        let cells = inside(&spec.region);
+        if cells.is_empty() {
+            let key = format!("solid.0.rigid.{part}.region");
+            return Err(empty(file, &key, "no centre of a cell"));
+        }
+        rigid.push(RigidPart { cells, density: spec.density });
+    }
     let mut fibres = Vec::new();
     for (n, spec) in solid.fibre.iter().enumerate() {
         let cells = inside(&spec.region);
@@ -97,10 +106,10 @@ pub(super) fn body<const D: usize>(
     };
     held.sort_unstable();
     held.dedup();
-    let spec = SolidSpec { mesh, frame, materials: materials(solid), material_of, fibres, held };
-    let refused = |said: String| file.error("solid.0", said, "change the body or its mesh");
+    let spec =
+        SolidSpec { mesh, frame, materials: materials(solid), material_of, fibres, rigid, held };
     Ok(SoftBody {
-        solid: Solid::new(spec).map_err(|error| refused(error.to_string()))?,
+        solid: Solid::new(spec).map_err(|error| refused(file, &error))?,
         law: file
             .case
             .loads
@@ -109,6 +118,22 @@ pub(super) fn body<const D: usize>(
             .transpose()
             .map_err(|error| file.error("loads", error.to_string(), "write finite numbers"))?,
     })
+}
+
+/// Why a body is none.
+fn refused(file: &SoftFile, error: &SolidError) -> Diagnostic {
+    let [key, help] = match error {
+        SolidError::RigidTouch([_, part]) => [
+            format!("solid.0.rigid.{part}.region"),
+            "make the two one part, or leave cells between them".to_owned(),
+        ],
+        SolidError::RigidHeld(part) => [
+            format!("solid.0.rigid.{part}.region"),
+            "hold cells beside it, or leave it elastic".to_owned(),
+        ],
+        _ => ["solid.0".to_owned(), "change the body or its mesh".to_owned()],
+    };
+    file.error(&key, error.to_string(), &help)
 }
 
 /// A region that holds nothing.

@@ -5,6 +5,7 @@ use nalgebra::SVector;
 
 use super::build::Solid;
 use super::geometry::{At, MAX_NODES, MAX_PLACES, MAX_UNKNOWNS};
+use super::rigid::pose::Pose;
 use crate::material::{Curvature, Fibre, Principal, Stress, Tangent, Tensor, Viscous, green};
 
 /// Green's strain as the backward difference of a step has it from levels before.
@@ -280,6 +281,7 @@ impl<const D: usize> Solid<D> {
         values: &mut [f64],
     ) -> bool {
         let Stiffness { curvature, factor } = wanted;
+        let pose = self.pose(places);
         let last = self.points.n_points - 1;
         let mut matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
         let mut point = 0;
@@ -290,12 +292,32 @@ impl<const D: usize> Solid<D> {
             }
             if point == last {
                 self.pattern.add_cell(cell, values, |p, q| matrix[p][q]);
+                if let Some(pose) = pose.as_ref().filter(|_| self.ties.is_beside(cell)) {
+                    self.add_tied(cell, pose, &matrix, values);
+                }
                 matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
                 point = 0;
             } else {
                 point += 1;
             }
         })
+    }
+
+    /// Adds what the matrix of a cell beside rigid parts has of their nodes.
+    fn add_tied(
+        &self,
+        cell: usize,
+        pose: &Pose<'_, D>,
+        matrix: &[[f64; MAX_UNKNOWNS]; MAX_UNKNOWNS],
+        values: &mut [f64],
+    ) {
+        let places = self.nodes_of(cell).iter().flat_map(|node| node * D..(node + 1) * D);
+        let all: Vec<usize> = places.chain(self.pressures.of(cell).iter().copied()).collect();
+        for p in 0..all.len() {
+            for q in 0..=p {
+                pose.add_entry(&self.pattern, [all[p], all[q]], matrix[p][q], values);
+            }
+        }
     }
 
     /// Strains that the backward difference with these factors has of levels before.

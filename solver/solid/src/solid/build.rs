@@ -12,7 +12,8 @@ use super::mass::Mass;
 use super::mesh::{Frame, Order, SolidMesh};
 use super::mixed::pressures::Pressures;
 use super::pattern::{Cells, Pattern};
-use crate::material::{Lame, Material, MaterialError, Tensor};
+use super::rigid::ties::Ties;
+use crate::material::{Lame, Law, Material, MaterialError, Tensor};
 
 /// Fibres that are told one stretch: a muscle, a tendon.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +24,15 @@ pub struct Fibres {
     pub directions: Vec<Vector3<f64>>,
     /// Stiffness w (Pa).
     pub stiffness: f64,
+}
+
+/// Cells that move as a rigid body; they may not touch those of another one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidPart {
+    /// The cells.
+    pub cells: Vec<usize>,
+    /// Their density (kg/m3) at rest.
+    pub density: f64,
 }
 
 /// All a solid is made from.
@@ -36,8 +46,10 @@ pub struct SolidSpec<const D: usize> {
     pub materials: Vec<Material>,
     /// The material of each cell; empty where all have the first.
     pub material_of: Vec<usize>,
-    /// Its active fibres.
+    /// Its active fibres; where the body is rigid they do nothing.
     pub fibres: Vec<Fibres>,
+    /// Its rigid parts: [`Solid::new`] adds a material with their density for each.
+    pub rigid: Vec<RigidPart>,
     /// Components of nodes, number D node + axis, that stay where the state at hand has them: all of a node
     /// for a clamp or a rigid part that is led, those across it for a rail.
     pub held: Vec<usize>,
@@ -61,6 +73,7 @@ pub struct Solid<const D: usize> {
     pub(super) points: CellPoints<D>,
     pub(super) mass: Mass<D>,
     pub(super) pressures: Pressures,
+    pub(super) ties: Ties,
     /// Fibres of each cell.
     pub(super) fibres_in: Vec<Vec<FibreIn>>,
     pub(super) pattern: Arc<Pattern>,
@@ -76,7 +89,7 @@ impl<const D: usize> Solid<D> {
     ///
     /// # Errors
     /// [`SolidError`] for what does not fit together.
-    pub fn new(spec: SolidSpec<D>) -> Result<Self, SolidError> {
+    pub fn new(mut spec: SolidSpec<D>) -> Result<Self, SolidError> {
         if (D == 3) != (spec.frame == Frame::Space) || !(2..=3).contains(&D) {
             return Err(SolidError::Frame(D));
         }
@@ -99,9 +112,15 @@ impl<const D: usize> Solid<D> {
             exists("node", *node, n_nodes)?;
         }
         let points = CellPoints::new(&spec.mesh, spec.frame)?;
+        let mut lame: Vec<Lame> = spec.materials.iter().map(Material::lame).collect();
+        let ties = stiffen(&mut spec, &mut lame)?;
         let pressures = pressures(&spec)?;
-        let cells =
-            Cells::<D> { nodes: &spec.mesh.cells, n_local: points.n_local, pressures: &pressures };
+        let cells = Cells::<D> {
+            nodes: &spec.mesh.cells,
+            n_local: points.n_local,
+            pressures: &pressures,
+            ties: &ties,
+        };
         let pattern = Pattern::new(&cells, &held_components(&spec)?);
         if pattern.n_places == 0 {
             return Err(SolidError::AllHeld);
@@ -110,11 +129,12 @@ impl<const D: usize> Solid<D> {
         let mass = Mass::new(&spec.mesh, &points, density, &pattern);
         let cholesky = Cholesky::new(&pattern)?;
         Ok(Self {
-            lame: spec.materials.iter().map(Material::lame).collect(),
+            lame,
             fibres_in: fibres_in(&spec)?,
             points,
             mass,
             pressures,
+            ties,
             pattern: Arc::new(pattern),
             cholesky: Arc::new(cholesky),
             spec,
@@ -210,10 +230,13 @@ impl<const D: usize> Solid<D> {
         &self.pressures.nodes
     }
 
-    /// The components that are held, ascending.
+    /// The components that are held, ascending; those of rigid parts are not.
     #[must_use]
     pub fn held(&self) -> Vec<usize> {
         let mut is_free = vec![false; self.n_components()];
+        for node in self.ties.parts.iter().flatten() {
+            is_free[D * node..D * node + D.min(self.ties.n_each)].fill(true);
+        }
         for component in &self.pattern.components {
             is_free[*component] = true;
         }
@@ -283,6 +306,37 @@ impl<const D: usize> Solid<D> {
     }
 }
 
+/// Makes parts rigid: each becomes a material without elasticity.
+fn stiffen<const D: usize>(
+    spec: &mut SolidSpec<D>,
+    lame: &mut Vec<Lame>,
+) -> Result<Ties, SolidError> {
+    let parts: Vec<Vec<usize>> = spec.rigid.iter().map(|part| part.cells.clone()).collect();
+    let ties = Ties::new(&parts, &spec.mesh, spec.frame)?;
+    let tied = spec.held.iter().find_map(|component| ties.part_of(component / D));
+    if let Some(part) = tied {
+        return Err(SolidError::RigidHeld(part));
+    }
+    if !ties.is_empty() && spec.material_of.is_empty() {
+        spec.material_of = vec![0; spec.mesh.n_cells()];
+    }
+    for RigidPart { cells, density } in &spec.rigid {
+        // Moduli that do not count
+        let material = Material {
+            law: Law::NeoHookean,
+            young: 1.0,
+            poisson: 0.0,
+            density: *density,
+            viscosity: 0.0,
+        };
+        material.check()?;
+        cells.iter().for_each(|cell| spec.material_of[*cell] = spec.materials.len());
+        spec.materials.push(material);
+        lame.push(Lame { shear: 0.0, volume: 0.0 });
+    }
+    Ok(ties)
+}
+
 /// The pressures of cells that keep their volume.
 fn pressures<const D: usize>(spec: &SolidSpec<D>) -> Result<Pressures, SolidError> {
     let n_local = spec.mesh.n_local();
@@ -335,7 +389,9 @@ fn fibres_in<const D: usize>(spec: &SolidSpec<D>) -> Result<Vec<Vec<FibreIn>>, S
             if !(length > 0.0 && length.is_finite()) {
                 return Err(SolidError::Direction(*cell));
             }
-            all[*cell].push(FibreIn { set, direction: direction / length });
+            if !spec.rigid.iter().any(|part| part.cells.contains(cell)) {
+                all[*cell].push(FibreIn { set, direction: direction / length });
+            }
         }
     }
     Ok(all)

@@ -71,6 +71,20 @@ pub enum SolidError {
         "a conservative step has no pressures: use a backward difference, or a Poisson's ratio below 0.5"
     )]
     KeptVolume,
+    /// Two rigid parts have nodes in common.
+    #[error("rigid parts {} and {} touch each other: make them one, or leave cells between them", .0[0], .0[1])]
+    RigidTouch([usize; 2]),
+    /// A rigid part has no cells.
+    #[error("rigid part {0} has no cells")]
+    RigidEmpty(usize),
+    /// A node of a rigid part is held.
+    #[error(
+        "rigid part {0} has a node that is held: it would not move freely; hold cells beside it, or let it be elastic"
+    )]
+    RigidHeld(usize),
+    /// What cannot be had where parts are rigid.
+    #[error("{0} is not known where parts are rigid")]
+    Rigid(&'static str),
     /// The matrix of a linear solution is singular.
     #[error("the stiffness is singular: is the body held so that it cannot move as a rigid one?")]
     Singular,

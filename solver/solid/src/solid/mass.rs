@@ -7,6 +7,7 @@ use alewife_mesh::Point;
 use super::geometry::CellPoints;
 use super::mesh::{Order, SolidMesh};
 use super::pattern::Pattern;
+use super::rigid::pose::Pose;
 
 /// Masses (kg) by pairs of nodes: lumped for linear cells, consistent for quadratic ones, whose vertices would
 /// have none.
@@ -81,7 +82,27 @@ impl<const D: usize> Mass<D> {
         product
     }
 
-    /// Adds a multiple of it to a matrix.
+    /// Adds a multiple of what rigid parts have of it to a matrix.
+    pub(super) fn add_tied(
+        &self,
+        factor: f64,
+        pose: &Pose<'_, D>,
+        pattern: &Pattern,
+        values: &mut [f64],
+    ) {
+        for a in 0..self.starts.len() - 1 {
+            for entry in self.starts[a]..self.starts[a + 1] {
+                let b = self.nodes[entry];
+                if b <= a {
+                    let mass = factor * self.values[entry];
+                    let add = |i| pose.add_entry(pattern, [a * D + i, b * D + i], mass, values);
+                    (0..D).for_each(add);
+                }
+            }
+        }
+    }
+
+    /// Adds a multiple of it to a matrix, of components that are free.
     pub(super) fn add(&self, factor: f64, pattern: &Pattern, values: &mut [f64]) {
         for (places, mass) in self.places.iter().zip(&self.values) {
             for place in places {

@@ -13,11 +13,12 @@ mod newton;
 mod pattern;
 mod potential;
 mod quadrature;
+mod rigid;
 mod sensitivity;
 mod step;
 
 pub use assemble::{StrainHistory, StrainLevel};
-pub use build::{Fibres, Solid, SolidSpec};
+pub use build::{Fibres, RigidPart, Solid, SolidSpec};
 pub use cholesky::{Cholesky, Factor};
 pub use error::SolidError;
 pub use mesh::{Frame, Order, SolidFacet, SolidMesh};

@@ -20,7 +20,8 @@ const CONVERGED: f64 = 1e-12;
 const CONVERGED_MIXED: f64 = 1e-8;
 
 impl<const D: usize> Solid<D> {
-    /// The lowest natural angular frequencies (rad/s) of small motions about a state, ascending.
+    /// The lowest natural angular frequencies (rad/s) of small motions about a state under loads (N) on all
+    /// components, ascending. Loads matter where parts are rigid: their torque changes as these turn.
     ///
     /// # Errors
     /// [`SolidError::Singular`] where the body can move as a rigid one, or the state is unstable;
@@ -29,10 +30,10 @@ impl<const D: usize> Solid<D> {
         &self,
         places: &[f64],
         targets: &[f64],
+        loads: &[f64],
         count: usize,
     ) -> Result<Vec<f64>, SolidError> {
-        let none = vec![0.0; self.n_components()];
-        let potential = Potential::at_rest(self, targets, &none);
+        let potential = Potential::at_rest(self, targets, loads);
         let turned_over = || SolidError::TurnedOver(self.turned_over(places).unwrap_or_default());
         let values = potential.curvature(places, Curvature::True, &[]).ok_or_else(turned_over)?;
         let factor = self.cholesky.factorise(&self.pattern, &values).ok_or(SolidError::Singular)?;
@@ -48,14 +49,14 @@ impl<const D: usize> Solid<D> {
         let mut last = vec![0.0; count];
         let converged = if self.pattern.is_mixed() { CONVERGED_MIXED } else { CONVERGED };
         for _ in 0..N_ITERATIONS {
-            let masses: Vec<Vec<f64>> = vectors.iter().map(|v| self.free_mass(v)).collect();
+            let masses: Vec<Vec<f64>> = vectors.iter().map(|v| self.free_mass(places, v)).collect();
             let mut solved = masses.clone();
             for vector in &mut solved {
                 if !self.cholesky.solve(&self.pattern, &factor, vector) {
                     return Err(SolidError::Singular);
                 }
             }
-            let found = self.ritz(&solved, &masses)?;
+            let found = self.ritz(places, &solved, &masses)?;
             let now: Vec<f64> = found.values[..count].to_vec();
             vectors = found.vectors;
             let change =
@@ -72,15 +73,20 @@ impl<const D: usize> Solid<D> {
         })
     }
 
-    fn free_mass(&self, free: &[f64]) -> Vec<f64> {
-        self.pattern.free(&self.mass.times(&self.pattern.all(free)))
+    fn free_mass(&self, places: &[f64], free: &[f64]) -> Vec<f64> {
+        self.free(places, &self.mass.times(&self.all(places, free)))
     }
 
     /// The best approximations in a space of vectors, whose products with the stiffness are known.
-    fn ritz(&self, vectors: &[Vec<f64>], forces: &[Vec<f64>]) -> Result<Ritz, SolidError> {
+    fn ritz(
+        &self,
+        places: &[f64],
+        vectors: &[Vec<f64>],
+        forces: &[Vec<f64>],
+    ) -> Result<Ritz, SolidError> {
         let size = vectors.len();
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-        let masses: Vec<Vec<f64>> = vectors.iter().map(|v| self.free_mass(v)).collect();
+        let masses: Vec<Vec<f64>> = vectors.iter().map(|v| self.free_mass(places, v)).collect();
         let table = |right: &[Vec<f64>]| {
             let full = DMatrix::from_fn(size, size, |i, j| product(&vectors[i], &right[j]));
             (&full + full.transpose()) * 0.5

@@ -4,6 +4,7 @@ use super::SolidError;
 use super::cholesky::Factor;
 use super::mixed::saddle;
 use super::potential::{Potential, Slope, norm};
+use super::rigid::unknowns::Direction;
 use crate::material::{Curvature, Principal};
 
 /// Part of the decrease the slope promises that a step has to reach (Armijo's rule).
@@ -106,7 +107,7 @@ impl Minimiser {
         let mut scale = at.scale;
         let mut is_stale = false;
         for iterations in 0..self.max_iterations {
-            let right = solid.pattern.free(&at.slope);
+            let right = solid.free(&places, &at.slope);
             let residual = norm(&right);
             scale = scale.max(at.scale);
             if residual <= (self.tolerance * scale).max(BALANCED * rounding.slope) {
@@ -124,7 +125,7 @@ impl Minimiser {
                 return Err(SolidError::Singular);
             }
             let slope: f64 = right.iter().zip(&direction).map(|(a, b)| a * b).sum();
-            let direction = solid.pattern.all(&direction);
+            let direction = solid.direction(&places, direction);
             let promise = Promise { slope, noise: ROUNDINGS * rounding.value };
             let Some(next) = search(potential, &mut places, &at, &direction, promise) else {
                 if is_fresh {
@@ -133,10 +134,10 @@ impl Minimiser {
                 is_stale = true;
                 continue;
             };
-            is_stale = norm(&solid.pattern.free(&next.slope)) > KEPT * residual;
+            is_stale = norm(&solid.free(&places, &next.slope)) > KEPT * residual;
             at = next;
         }
-        let residual = norm(&solid.pattern.free(&at.slope));
+        let residual = norm(&solid.free(&places, &at.slope));
         Err(SolidError::NotConverged { iterations: self.max_iterations, residual, scale })
     }
 
@@ -181,16 +182,16 @@ fn search<const D: usize>(
     potential: &Potential<'_, D>,
     places: &mut Vec<f64>,
     at: &Slope,
-    direction: &[f64],
+    direction: &Direction,
     Promise { slope, noise }: Promise,
 ) -> Option<Slope> {
-    let before = norm(&potential.solid.pattern.free(&at.slope));
+    let solid = potential.solid;
+    let before = norm(&solid.free(places, &at.slope));
     let mut length = 1.0;
     for _ in 0..N_HALVINGS {
-        let trial: Vec<f64> =
-            places.iter().zip(direction).map(|(x, step)| x - length * step).collect();
+        let trial = solid.against(places, direction, length);
         if let Some(next) = potential.slope(&trial) {
-            let after = norm(&potential.solid.pattern.free(&next.slope));
+            let after = norm(&solid.free(&trial, &next.slope));
             let is_lower =
                 next.value < at.value && next.value <= at.value - ARMIJO * length * slope;
             // Near the minimum the decrease drowns in rounding, and the residual still says

@@ -1,6 +1,9 @@
 //! `Pattern`: where the entries of symmetric matrices of a solid are, and their values.
 
+use std::collections::BTreeSet;
+
 use super::mixed::pressures::Pressures;
+use super::rigid::ties::Ties;
 
 /// Unknown of a component of a node that is held.
 const HELD: usize = usize::MAX;
@@ -8,12 +11,15 @@ const HELD: usize = usize::MAX;
 /// An entry that falls away since a component is held.
 const NOWHERE: u32 = u32::MAX;
 
-/// The lower triangle of symmetric matrices, column by column; unknowns are the components that are free.
+/// The lower triangle of symmetric matrices, column by column; unknowns are those of rigid parts, and behind them the
+/// components that are free.
 #[derive(Debug, Clone)]
 pub struct Pattern {
     /// Number of components of all nodes.
     n_components: usize,
-    /// The component of each unknown.
+    /// Unknowns of rigid parts, which come first.
+    n_rigid: usize,
+    /// The component of each unknown behind them.
     pub(super) components: Vec<usize>,
     /// The unknown of each component.
     unknowns: Vec<usize>,
@@ -38,19 +44,23 @@ pub(super) struct Cells<'a, const D: usize> {
     pub n_local: usize,
     /// Their pressures.
     pub pressures: &'a Pressures,
+    /// Nodes that move with rigid parts.
+    pub ties: &'a Ties,
 }
 
 impl Pattern {
     /// The pattern of cells; `held` says which components of places are held.
     pub(super) fn new<const D: usize>(cells: &Cells<'_, D>, held: &[bool]) -> Self {
-        let Cells { nodes, n_local, pressures } = *cells;
+        let Cells { nodes, n_local, pressures, ties } = *cells;
+        let n_rigid = ties.n_unknowns();
         let n_nodes = held.len() / D;
         let n_components = held.len() + pressures.count();
         let mut unknowns = vec![HELD; n_components];
-        let is_free = |c: &usize| held.get(*c) != Some(&true);
+        let is_free = |c: &usize| held.get(*c) != Some(&true) && !ties.has(*c / D);
+        let is_free = |c: &usize| *c >= held.len() || is_free(c);
         let components: Vec<usize> = (0..n_components).filter(is_free).collect();
         for (unknown, component) in components.iter().enumerate() {
-            unknowns[*component] = unknown;
+            unknowns[*component] = n_rigid + unknown;
         }
         let mut neighbours = vec![Vec::new(); n_nodes];
         let mut pressed = vec![Vec::new(); n_nodes];
@@ -65,7 +75,12 @@ impl Pattern {
             list.dedup();
         }
         let (mut starts, mut rows) = (vec![0], Vec::new());
+        for column in rigid_columns(cells, &unknowns) {
+            rows.extend(column);
+            starts.push(rows.len());
+        }
         for (column, component) in components.iter().enumerate() {
+            let column = n_rigid + column;
             if *component < held.len() {
                 for node in &neighbours[component / D] {
                     let others = (node * D..(node + 1) * D).map(|other| unknowns[other]);
@@ -78,10 +93,11 @@ impl Pattern {
             }
             starts.push(rows.len());
         }
-        let n_places = components.len() - pressures.count();
+        let n_places = n_rigid + components.len() - pressures.count();
         let (scatter, cell_starts) = (Vec::new(), vec![0]);
         let mut pattern = Self {
             n_components,
+            n_rigid,
             components,
             unknowns,
             starts,
@@ -106,7 +122,16 @@ impl Pattern {
 
     /// Where the entry of two components is.
     pub(super) fn place(&self, one: usize, other: usize) -> u32 {
-        let (one, other) = (self.unknowns[one], self.unknowns[other]);
+        self.entry(self.unknowns[one], self.unknowns[other])
+    }
+
+    /// The unknown of a component that is free.
+    pub(super) fn unknown(&self, component: usize) -> Option<usize> {
+        Some(self.unknowns[component]).filter(|unknown| *unknown != HELD)
+    }
+
+    /// Where the entry of two unknowns is.
+    pub(super) fn entry(&self, one: usize, other: usize) -> u32 {
         if one == HELD || other == HELD {
             return NOWHERE;
         }
@@ -120,7 +145,7 @@ impl Pattern {
     /// Number of unknowns.
     #[must_use]
     pub fn n_unknowns(&self) -> usize {
-        self.components.len()
+        self.n_rigid + self.components.len()
     }
 
     /// Number of entries of the lower triangle.
@@ -178,19 +203,39 @@ impl Pattern {
         product
     }
 
-    /// The unknowns of a list of all components.
+    /// The unknowns of a list of all components; zero for those of rigid parts.
     #[must_use]
     pub fn free(&self, all: &[f64]) -> Vec<f64> {
-        self.components.iter().map(|component| all[*component]).collect()
+        let rigid = std::iter::repeat_n(0.0, self.n_rigid);
+        rigid.chain(self.components.iter().map(|component| all[*component])).collect()
     }
 
-    /// All components from unknowns; zero where held.
+    /// All components from unknowns; zero where held, or in a rigid part.
     #[must_use]
     pub fn all(&self, free: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.n_components];
-        for (component, value) in self.components.iter().zip(free) {
+        for (component, value) in self.components.iter().zip(&free[self.n_rigid..]) {
             all[*component] = *value;
         }
         all
     }
+}
+
+/// Rows of the unknowns of rigid parts, column by column.
+fn rigid_columns<const D: usize>(cells: &Cells<'_, D>, unknowns: &[usize]) -> Vec<Vec<usize>> {
+    let Cells { nodes, n_local, pressures, ties } = *cells;
+    let mut rows: Vec<BTreeSet<usize>> = ties.parts.iter().map(|_| BTreeSet::new()).collect();
+    for (number, cell) in nodes.chunks_exact(n_local).enumerate() {
+        let parts: BTreeSet<usize> = cell.iter().filter_map(|node| ties.part_of(*node)).collect();
+        let components = || {
+            let places = cell.iter().flat_map(|node| node * D..(node + 1) * D);
+            places.chain(pressures.of(number).iter().copied()).map(|one| unknowns[one])
+        };
+        for part in &parts {
+            rows[*part].extend(components().filter(|unknown| *unknown != HELD));
+            rows[*part].extend(parts.iter().flat_map(|other| ties.unknowns(*other)));
+        }
+    }
+    let columns = (0..ties.n_unknowns()).map(|column| (column, &rows[column / ties.n_each]));
+    columns.map(|(column, rows)| rows.range(column..).copied().collect()).collect()
 }

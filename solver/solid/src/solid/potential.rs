@@ -101,8 +101,8 @@ impl<'a, const D: usize> Potential<'a, D> {
             )?;
             value += stage.weight / stage.share * energy;
         }
-        let pattern = &self.solid.pattern;
-        let free = |all: &[f64]| norm(&pattern.free(all)[..pattern.n_places]);
+        let n_free = self.solid.pattern.n_places;
+        let free = |all: &[f64]| norm(&self.solid.free(places, all)[..n_free]);
         let mut scale = free(&slope).max(free(self.loads));
         for (entry, (load, place)) in slope.iter_mut().zip(self.loads.iter().zip(places)) {
             *entry -= load;
@@ -147,8 +147,15 @@ impl<'a, const D: usize> Potential<'a, D> {
                 return None;
             }
         }
+        let pose = self.solid.pose(places);
         if let Some(inertia) = &self.inertia {
             self.solid.mass.add(inertia.factor, pattern, &mut values);
+            if let Some(pose) = &pose {
+                self.solid.mass.add_tied(inertia.factor, pose, pattern, &mut values);
+            }
+        }
+        if let Some(pose) = pose.filter(|_| curvature == Curvature::True) {
+            pose.add_turning(pattern, &self.slope(places)?.slope, &mut values);
         }
         Some(values)
     }
@@ -192,6 +199,9 @@ impl<'a, const D: usize> Potential<'a, D> {
             energy += inertia.factor * momentum.iter().zip(apart).map(|(p, x)| p * x).sum::<f64>();
         }
         energy += self.loads.iter().zip(places).map(|(load, x)| (load * x).abs()).sum::<f64>();
+        // Forces on all nodes of a rigid part are summed
+        let most = solid.ties.parts.iter().map(Vec::len).max().unwrap_or(1);
+        let slope = slope * (most as f64).sqrt();
         Rounding {
             value: f64::EPSILON * energy,
             slope: f64::EPSILON * slope,

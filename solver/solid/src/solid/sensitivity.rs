@@ -72,12 +72,12 @@ impl<const D: usize> Solid<D> {
     ) -> Result<Vec<f64>, SolidError> {
         let turned_over = || SolidError::TurnedOver(self.turned_over(places).unwrap_or_default());
         let values = potential.curvature(places, Curvature::True, known).ok_or_else(turned_over)?;
-        let right = self.pattern.free(right);
+        let right = self.free(places, right);
         let near = factor.as_ref().and_then(|factor| {
             self.cholesky.conjugate_gradients(&self.pattern, &values, factor, &right)
         });
         if let Some(solution) = near {
-            return Ok(self.pattern.all(&solution));
+            return Ok(self.all(places, &solution));
         }
         let new = self.cholesky.factorise(&self.pattern, &values).ok_or(SolidError::Singular)?;
         let mut solution = right.clone();
@@ -85,14 +85,14 @@ impl<const D: usize> Solid<D> {
             return Err(SolidError::Singular);
         }
         *factor = Some(new);
-        Ok(self.pattern.all(&solution))
+        Ok(self.all(places, &solution))
     }
 
     /// Derivatives of z . r at a state, the slope r of a potential with inertia or without; `levels` are those
     /// of its damping, which matter for the shape. Singular values may be known, of all points or of none.
     ///
     /// # Errors
-    /// [`SolidError::TurnedOver`].
+    /// [`SolidError::TurnedOver`], and [`SolidError::Rigid`] for the shape where parts are rigid.
     pub fn sensitivity(
         &self,
         potential: &Potential<'_, D>,
@@ -101,6 +101,9 @@ impl<const D: usize> Solid<D> {
         z: &[f64],
         levels: Option<&[StrainLevel<'_>]>,
     ) -> Result<Sensitivity, SolidError> {
+        if levels.is_some() && !self.ties.is_empty() {
+            return Err(SolidError::Rigid("the derivative by the shape"));
+        }
         let mut found = Sensitivity::new(self, levels.is_some());
         let mut by_lame = vec![[0.0; 2]; self.spec.materials.len()];
         let before: Vec<(f64, Vec<Tensor>)> = levels

@@ -129,6 +129,9 @@ impl<const D: usize> Solid<D> {
             if self.pattern.is_mixed() {
                 return Err(SolidError::KeptVolume);
             }
+            if !self.ties.is_empty() {
+                return Err(SolidError::Rigid("a conservative step"));
+            }
             let rule = GaussRule::new(WAY_POINTS);
             let points = rule.points.iter().zip(&rule.weights).map(|(s, w)| [*s, *w]).collect();
             potential.way = Some(Way { from: places.clone(), points });
@@ -191,9 +194,17 @@ impl<const D: usize> Solid<D> {
         for component in &self.pattern.components {
             start[*component] = motion.places[*component];
         }
+        for node in self.ties.parts.iter().flatten() {
+            let own = D * node..D * (node + 1);
+            start[own.clone()].copy_from_slice(&motion.places[own]);
+        }
         let still = start.clone();
         for component in &self.pattern.components {
             start[*component] += step * motion.velocities[*component];
+        }
+        if let Some(pose) = self.pose(&still) {
+            let rates = pose.rates(&motion.velocities);
+            pose.place(&rates.iter().map(|rate| step * rate).collect::<Vec<_>>(), &mut start);
         }
         let minimum = match minimiser.minimise(&potential, &start) {
             // Coasting would turn a cell over

@@ -1,11 +1,11 @@
 //! What the body of a soft case may be.
 
 use super::mistakes::Mistakes;
-use crate::Geometry;
 use crate::soft::solid::{
     FibreSpec, GridSpec, HoldSpec, MaterialSpec, OutlineSpec, Region, SoftSolid, SolidOrder,
     Stretch,
 };
+use crate::{Geometry, ShapeSpec};
 
 /// Most cells of a grid.
 const MOST_CELLS: usize = 1_000_000;
@@ -22,6 +22,10 @@ pub fn check(mistakes: &mut Mistakes<'_>) {
         region(mistakes, &format!("solid.0.part.{n}.region"), &part.region);
         let key = format!("solid.0.part.{n}.material");
         material(mistakes, &key, solid.order, &part.material);
+    }
+    for (n, rigid) in solid.rigid.iter().enumerate() {
+        region(mistakes, &format!("solid.0.rigid.{n}.region"), &rigid.region);
+        mistakes.positive(&format!("solid.0.rigid.{n}.density"), rigid.density);
     }
     for (n, one) in solid.fibre.iter().enumerate() {
         fibre(mistakes, &format!("solid.0.fibre.{n}"), one);
@@ -40,17 +44,7 @@ fn shape(mistakes: &mut Mistakes<'_>, solid: &SoftSolid) {
             format!("\"{}\" has {n} of `shape`, `outline`, `grid` and `mesh`", solid.name);
         return mistakes.add("solid.0", message, "write one of them: it says where the body is");
     }
-    if let Some(shape) = shape {
-        let planar = ["disc", "ellipse", "spline", "fish", "flagellate", "tube"];
-        let name = shape.name();
-        if mistakes.case().geometry != Geometry::Planar || !planar.contains(&name) {
-            let geometry = mistakes.case().geometry.name();
-            let message = format!("`solid.0.shape` is a {name} in a case that is {geometry}");
-            let help = "accepted: disc, ellipse, spline, fish, flagellate, tube of planar cases; else write \
-                        `outline`, `grid` or `mesh`";
-            mistakes.add("solid.0.shape", message, help);
-        }
-    }
+    shape.iter().for_each(|shape| check_shape(mistakes, shape));
     match size {
         Some(size) => mistakes.positive("solid.0.size", *size),
         None if shape.is_some() || outline.is_some() => {
@@ -62,6 +56,33 @@ fn shape(mistakes: &mut Mistakes<'_>, solid: &SoftSolid) {
     outline.iter().for_each(|outline| check_outline(mistakes, outline));
     grid.iter().for_each(|grid| check_grid(mistakes, grid));
     mesh.iter().for_each(|mesh| mistakes.positive("solid.0.mesh.scale", mesh.scale));
+}
+
+fn check_shape(mistakes: &mut Mistakes<'_>, shape: &ShapeSpec) {
+    let planar = ["disc", "ellipse", "spline", "fish", "flagellate", "tube"];
+    let (name, geometry) = (shape.name(), mistakes.case().geometry);
+    let is_known = match geometry {
+        Geometry::Planar => planar.contains(&name),
+        Geometry::Axisymmetric => false,
+        Geometry::Spatial => name == "surface",
+    };
+    if !is_known {
+        let message = format!("`solid.0.shape` is a {name} in a case that is {}", geometry.name());
+        let help = "accepted: disc, ellipse, spline, fish, flagellate, tube of planar cases, surface of spatial \
+                    ones; else write `outline`, `grid` or `mesh`";
+        return mistakes.add("solid.0.shape", message, help);
+    }
+    let ShapeSpec::Surface(surface) = shape else { return };
+    let key = "solid.0.shape.surface";
+    if surface.data.is_none() {
+        let help = "write file = \"body.stl\", the path of an STL, OBJ or PLY file";
+        mistakes.add(key, "the surface has no triangles".to_owned(), help);
+    }
+    mistakes.positive(&format!("{key}.scale"), surface.scale);
+    if !(surface.smooth > 0.0 && surface.smooth <= 180.0) {
+        let message = format!("`{key}.smooth` is {}", surface.smooth);
+        mistakes.add(&format!("{key}.smooth"), message, "write degrees above 0, 180 at most");
+    }
 }
 
 fn check_outline(mistakes: &mut Mistakes<'_>, outline: &OutlineSpec) {

@@ -3,6 +3,7 @@
 use crate::material::{Curvature, Principal};
 use crate::solid::SolidError;
 use crate::solid::potential::{Potential, Rounding, Slope, norm};
+use crate::solid::rigid::unknowns::Direction;
 
 /// Part of the decrease the slope promises that a step has to reach (Armijo's rule).
 const ARMIJO: f64 = 1e-4;
@@ -52,9 +53,9 @@ struct Measure<'a, const D: usize> {
 }
 
 /// A way to go from a state.
-struct Direction {
-    /// By all components, to be subtracted.
-    all: Vec<f64>,
+struct Newton {
+    /// To be subtracted.
+    way: Direction,
     /// The second derivative along it, of places only (J).
     curvature: f64,
 }
@@ -72,7 +73,7 @@ pub(in crate::solid) fn find<const D: usize>(
     let (mut scale, mut n_factors) = (at.found.scale, 0);
     let volume = norm(&measure.volumes);
     for iterations in 0..max_iterations {
-        let residual = measure.forces(&at.found);
+        let residual = measure.forces(&at.state, &at.found);
         scale = scale.max(at.found.scale);
         let has_forces = residual <= (tolerance * scale).max(BALANCED * measure.rounding.slope);
         let kept = measure.excess(&at.found);
@@ -91,7 +92,7 @@ pub(in crate::solid) fn find<const D: usize>(
         }
         at = next.ok_or(SolidError::NotConverged { iterations, residual, scale })?;
     }
-    let residual = measure.forces(&at.found);
+    let residual = measure.forces(&at.state, &at.found);
     Err(SolidError::NotConverged { iterations: max_iterations, residual, scale })
 }
 
@@ -100,12 +101,12 @@ fn direction<const D: usize>(
     potential: &Potential<'_, D>,
     at: &At,
     curvature: Curvature,
-) -> Option<Direction> {
+) -> Option<Newton> {
     let solid = potential.solid;
     let known: &[Principal] = &at.found.known;
     let values = potential.curvature(&at.state, curvature, known)?;
     let factor = solid.cholesky.factorise(&solid.pattern, &values)?;
-    let right = solid.pattern.free(&at.found.slope);
+    let right = solid.free(&at.state, &at.found.slope);
     let mut free = right.clone();
     let is_solved = solid.cholesky.solve(&solid.pattern, &factor, &mut free);
     let n = solid.pattern.n_places;
@@ -114,7 +115,7 @@ fn direction<const D: usize>(
     };
     // K x + B q = r and B^T x = g: x . K x = x . r - q . g
     let curvature = product(0..n) - product(n..right.len());
-    is_solved.then(|| Direction { all: solid.pattern.all(&free), curvature })
+    is_solved.then(|| Newton { way: solid.direction(&at.state, free), curvature })
 }
 
 impl<'a, const D: usize> Measure<'a, D> {
@@ -137,9 +138,9 @@ impl<'a, const D: usize> Measure<'a, D> {
     }
 
     /// Norm of the forces (N) on what is free.
-    fn forces(&self, found: &Slope) -> f64 {
-        let pattern = &self.potential.solid.pattern;
-        norm(&pattern.free(&found.slope)[..pattern.n_places])
+    fn forces(&self, state: &[f64], found: &Slope) -> f64 {
+        let solid = self.potential.solid;
+        norm(&solid.free(state, &found.slope)[..solid.pattern.n_places])
     }
 
     /// Changes of the volumes (m3) at the pressures.
@@ -159,13 +160,14 @@ impl<'a, const D: usize> Measure<'a, D> {
     }
 
     /// How far a state is from the saddle: parts of the forces and of the volumes.
-    fn distance(&self, found: &Slope, scale: f64) -> f64 {
-        self.forces(found) / scale.max(f64::MIN_POSITIVE) + self.excess(found) / norm(&self.volumes)
+    fn distance(&self, state: &[f64], found: &Slope, scale: f64) -> f64 {
+        self.forces(state, found) / scale.max(f64::MIN_POSITIVE)
+            + self.excess(found) / norm(&self.volumes)
     }
 
     /// Goes against a direction as far as the potential with the pressures at its end, and a penalty on changes of
     /// the volume, decreases as its slope promises; none where it does not (the augmented Lagrangian of @nocedal2006).
-    fn search(&mut self, at: &At, direction: &Direction, scale: f64) -> Option<At> {
+    fn search(&mut self, at: &At, direction: &Newton, scale: f64) -> Option<At> {
         let first = self.potential.solid.pressures.first;
         let squares = self.squares(&at.found);
         if direction.curvature < 0.0 {
@@ -179,29 +181,27 @@ impl<'a, const D: usize> Measure<'a, D> {
         }
         let promise = direction.curvature + self.penalty * squares;
         let merit = |found: &Slope| found.value + 0.5 * self.penalty * self.squares(found);
-        let pairs = self.excesses(&at.found).iter().zip(&direction.all[first..]);
+        let pairs = self.excesses(&at.found).iter().zip(&direction.way.all[first..]);
         let before = merit(&at.found) - pairs.map(|(excess, moved)| excess * moved).sum::<f64>();
-        let distance = self.distance(&at.found, scale);
+        let distance = self.distance(&at.state, &at.found, scale);
         let noise = ROUNDINGS * self.rounding.value;
         let mut length = 1.0;
         for _ in 0..N_HALVINGS {
-            let moved = |share: f64| -> Vec<f64> {
-                let pairs = at.state.iter().zip(&direction.all).enumerate();
-                pairs
-                    .map(|(k, (x, d))| x - if k < first { length * d } else { share * d })
-                    .collect()
-            };
-            let trial = moved(1.0);
+            let short = self.potential.solid.against(&at.state, &direction.way, length);
+            let mut trial = short.clone();
+            for (pressure, k) in trial[first..].iter_mut().zip(first..) {
+                *pressure = at.state[k] - direction.way.all[k];
+            }
             if let Some(found) = self.potential.slope(&trial) {
                 let after = merit(&found);
                 let is_lower = after < before && after <= before - ARMIJO * length * promise;
-                let is_nearer = after <= before + noise && self.distance(&found, scale) < distance;
+                let is_nearer =
+                    after <= before + noise && self.distance(&trial, &found, scale) < distance;
                 if is_lower || is_nearer {
                     if length == 1.0 {
                         return Some(At { state: trial, found });
                     }
-                    let state = moved(length);
-                    return self.potential.slope(&state).map(|found| At { state, found });
+                    return self.potential.slope(&short).map(|found| At { state: short, found });
                 }
             }
             length *= 0.5;

@@ -28,8 +28,8 @@ pub struct SurfaceShape {
     /// Origin of the body frame: `"centroid"`, or [x, y, z] of the file times `scale` (m).
     #[serde(default)]
     pub center: SurfaceCenter,
-    /// Largest angle by which the surface turns at an edge (degrees): it is smooth through the vertices, and
-    /// sharper edges are refused.
+    /// Largest angle by which the surface turns at an edge (degrees): it is smooth through the vertices;
+    /// sharper edges are refused in a flow, and stay sharp in soft cases.
     #[serde(default = "smooth")]
     #[cfg_attr(test, schemars(with = "Degrees"))]
     pub smooth: f64,

@@ -1,0 +1,71 @@
+//! The mesh of a soft body in space inside of a closed surface of triangles.
+
+use alewife_case::soft::SoftFile;
+use alewife_case::soft::solid::SoftSolid;
+use alewife_case::{Diagnostic, SurfaceCenter, SurfaceShape};
+use alewife_mesh::spatial::{
+    Region, SurfaceFault, TriangleMesh, estimate_cells_inside, generate_inside,
+};
+use alewife_mesh::{Mesh, MeshError, Sizing};
+
+/// Most cells of the inside.
+const MOST_CELLS: f64 = 1e6;
+
+/// Layers of cells wanted across a thin part: quadratic ones bend with one.
+const LAYERS: f64 = 1.0;
+
+/// Length of a surface over the size of its cells from which on its unit of length is asked for.
+const MUCH_LARGER: f64 = 1000.0;
+
+const KEY: &str = "solid.0.shape.surface.data";
+
+/// The inside of the surface of a solid, placed with its origin at 0, in cells of the solid's size.
+pub(super) fn inside_of_surface(
+    file: &SoftFile,
+    solid: &SoftSolid,
+    surface: &SurfaceShape,
+) -> Result<Mesh<3>, Diagnostic> {
+    let of_surface = |fault: SurfaceFault| {
+        let message = format!("the surface of \"{}\": {fault}", solid.name);
+        file.error(KEY, message, fault.remedy())
+    };
+    let data = surface.data.as_deref().unwrap_or_default();
+    let mut mesh = TriangleMesh::from_line(data).map_err(of_surface)?.scaled(surface.scale);
+    mesh.check().map_err(of_surface)?;
+    let origin = match surface.center {
+        SurfaceCenter::Centroid => mesh.moments().centroid,
+        SurfaceCenter::At(at) => at.into(),
+    };
+    mesh.vertices.iter_mut().for_each(|vertex| *vertex -= origin);
+    let (n, extent) = (mesh.triangles.len(), mesh.extent());
+    let region = Region::new(mesh, vec!["surface".to_owned()], vec![0; n], surface.smooth)
+        .map_err(of_surface)?;
+    let size = solid.size.unwrap_or(extent);
+    let sizing = Sizing { gap_layers: LAYERS, ..Sizing::graded(size, 0.5, size) };
+    let of_mesh = |error: MeshError| {
+        let message = format!("the inside of the surface cannot be meshed: {error}");
+        let help = "take a smaller solid.0.size, or round edges that are too sharp";
+        file.error(KEY, message, help)
+    };
+    // Far too many are seen without a count: a cell is smaller than the cube over its edge
+    let least = region.volume() / size.powi(3);
+    let n_cells = if least > MOST_CELLS {
+        least
+    } else {
+        estimate_cells_inside(&region, &sizing, MOST_CELLS).map_err(of_mesh)?
+    };
+    if n_cells > MOST_CELLS {
+        let message =
+            format!("the inside of the surface would have more than {MOST_CELLS:e} cells");
+        let mut help = "write a larger size".to_owned();
+        if extent > MUCH_LARGER * size {
+            help += &format!(
+                "; the surface is about {extent:.3e} long and the cells {size:.3e}: where lengths of its file are \
+                 in another unit than the case, such as mm, write scale = {:?}",
+                surface.scale * 1e-3
+            );
+        }
+        return Err(file.error("solid.0.size", message, &help));
+    }
+    generate_inside(&region, &sizing).map_err(of_mesh)
+}
