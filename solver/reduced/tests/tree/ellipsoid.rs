@@ -13,7 +13,7 @@ fn three(row: &[f64], from: usize) -> Vector3<f64> {
     Vector3::new(row[from], row[from + 1], row[from + 2])
 }
 
-/// The same of `MuJoCo` 3.3.7: the ellipsoids of a fish with tendons, most of them some millimetres large, its coefficients.
+/// The same of `MuJoCo` 3.3.7: the ellipsoids of a fish with tendons, most of them some centimetres large, its coefficients.
 const SMALL: &str = include_str!("mujoco3.csv");
 
 /// How far loads are from those of a table, by the size of these, row by row.

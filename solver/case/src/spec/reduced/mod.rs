@@ -78,7 +78,7 @@ pub enum LiftSpec {
     /// By its formula, at any size.
     Full,
     /// As `MuJoCo` 3 has it (3.3.7; 4.0 has it full): its denominators are 1e-15 at least in SI units, which takes it from
-    /// parts of some millimetres.
+    /// parts of some centimetres.
     #[serde(rename = "mujoco-3")]
     Mujoco3,
 }

@@ -76,7 +76,7 @@ impl<T: Number> EllipsoidCoefficients<T> {
 /// ```
 ///
 /// where I = 8/15 pi `r_i` max(`r_j`, `r_k`)^4. `MuJoCo` 3 divides by what is `LEAST` at least: with the fourth powers
-/// of areas in m2 that takes most of the lift from a part of some millimetres, and `Lift::Mujoco3` does the same. To this comes the momentum of the fluid: masses m and moments of
+/// of areas in m2 that takes most of the lift from a part of some centimetres, and `Lift::Mujoco3` does the same. To this comes the momentum of the fluid: masses m and moments of
 /// inertia J of the potential flow (Lamb, Hydrodynamics, art. 114 and 373), their integrals exact or, as
 /// `AddedMass::Mujoco`, by the rule of 15 points that `MuJoCo` takes.
 #[derive(Debug, Clone, PartialEq)]
