@@ -89,7 +89,7 @@ pub use spec::reduced::mechanics::{EllipsoidSpec, KeelSpec, ServoSpec, SiteSpec,
 pub use spec::reduced::parts::{
     BuoyancySpec, CalibratedSpec, ConnectionSpec, LagSpec, ThrusterSpec,
 };
-pub use spec::reduced::{AddedMassSpec, ReducedSpec};
+pub use spec::reduced::{AddedMassSpec, LiftSpec, ReducedSpec};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };

@@ -1,20 +1,21 @@
 //! `Law`: what the fluid does to a body by the law of a case, over any kind of number.
 
 use alewife_reduced::tree::loads::{
-    AddedMass, Ellipsoid, EllipsoidCoefficients, Load, Resistive, StripCoefficients, Strips,
+    AddedMass, Ellipsoid, EllipsoidCoefficients, Lift, Load, Resistive, StripCoefficients, Strips,
     Vehicle,
 };
 use alewife_reduced::tree::{Number, real};
 use nalgebra::Vector3;
 
 use super::inertia::Solid;
-use crate::case::{AddedMassSpec, Case, LoadLaw, ReducedSpec};
+use crate::case::{AddedMassSpec, Case, LiftSpec, LoadLaw, ReducedSpec};
 
 /// The law of a case for one body.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Law {
     loads: LoadLaw,
     added_mass: AddedMass,
+    lift: Lift,
     semi_axes: Vector3<f64>,
     density: f64,
     viscosity: f64,
@@ -26,9 +27,14 @@ impl Law {
             Some(AddedMassSpec::Mujoco) => AddedMass::Mujoco,
             Some(AddedMassSpec::Full) | None => AddedMass::Full,
         };
+        let lift = match spec.lift {
+            Some(LiftSpec::Mujoco3) => Lift::Mujoco3,
+            Some(LiftSpec::Full) | None => Lift::Full,
+        };
         Self {
             loads: spec.loads,
             added_mass,
+            lift,
             semi_axes: solid.semi_axes,
             density: case.fluid.density,
             viscosity: case.reference_viscosity(),
@@ -82,7 +88,7 @@ impl Law {
                 let coefficients = EllipsoidCoefficients::from_array([0, 1, 2, 3, 4].map(c));
                 let axes = [axes.x, axes.y, axes.z];
                 let law = Ellipsoid::new(axes, density, viscosity, coefficients, self.added_mass);
-                Load::Ellipsoid(Box::new(law))
+                Load::Ellipsoid(Box::new(law.lifted(self.lift)))
             }
             LoadLaw::Fossen => {
                 Load::Vehicle(Vehicle { added: six(0), linear: six(6), quadratic: six(12) })

@@ -21,8 +21,13 @@ fn deviation<'a>(result: &'a Calibrated, record: &str, quantity: &str) -> &'a De
 /// The records were made with 0.7, 4.5 and 0.5, and are rounded to a tenth of a millimetre and a hundredth of a degree.
 #[test]
 fn a_twin_gets_its_coefficients_back_from_one_swim() {
-    let result = calibrate(&read("eel-calibration", &[])).unwrap();
+    let exact = calibrate(&read("eel-calibration", &[])).unwrap();
     let expected = [("added_mass", 0.7), ("normal_quadratic", 4.5), ("tangential_quadratic", 0.5)];
+    let result = calibrate(&read("eel-calibration", &["calibration.differences=0.02"])).unwrap();
+    for (name, _) in expected {
+        assert!((found(&result, name) / found(&exact, name) - 1.0).abs() < 1e-3, "{name}");
+    }
+    let result = exact;
     for (nth, (name, expected)) in expected.into_iter().enumerate() {
         let (value, error) = (found(&result, name), result.fit.uncertainties[nth]);
         assert!((value / expected - 1.0).abs() < 0.02, "{name}: {value} +- {error}");
@@ -145,6 +150,9 @@ fn bad_calibrations_are_refused_by_key_and_line() {
     assert_eq!(wrong(&["calibration.from.0.holdout=true"]), ["calibration.from"]);
     assert_eq!(wrong(&["calibration.by=loads"]), ["calibration.from.0.csv"]);
     assert_eq!(wrong(&["calibration.tracks=['eel-9.x']"]), ["calibration.tracks.0"]);
+    assert_eq!(wrong(&["calibration.differences=2.0"]), ["calibration.differences"]);
+    let loads = wrong(&["calibration.by=loads", "calibration.differences=0.02"]);
+    assert!(loads.contains(&"calibration.differences".to_owned()), "{loads:?}");
     let refused =
         |settings: &[&str]| calibrate(&read("eel-calibration", settings)).unwrap_err().to_string();
     let missing = refused(&["calibration.from.0.time=when"]);

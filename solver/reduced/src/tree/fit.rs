@@ -36,6 +36,21 @@ pub trait Residuals {
     /// # Errors
     /// When there are none at these parameters.
     fn residuals(&self, parameters: &[Dual64]) -> Result<Vec<Dual64>, TreeError>;
+
+    /// The part of each parameter that central differences go to either side, in place of exact derivatives; none if these
+    /// are taken. Those of a motion that forgets how it began grow without end along it, and say nothing of its mean.
+    fn differences(&self) -> Option<f64> {
+        None
+    }
+
+    /// The same without derivatives.
+    ///
+    /// # Errors
+    /// When there are none at these parameters.
+    fn values(&self, parameters: &[f64]) -> Result<Vec<f64>, TreeError> {
+        let parameters: Vec<Dual64> = parameters.iter().map(|one| Dual64::from(*one)).collect();
+        Ok(self.residuals(&parameters)?.iter().map(|one| one.re).collect())
+    }
 }
 
 /// Part of the largest diagonal entry of a normal matrix below which a parameter is undetermined.
@@ -237,7 +252,10 @@ struct Linear {
     columns: Vec<Vec<f64>>,
 }
 
-fn linear(residuals: &impl Residuals, at: &[f64]) -> Result<Linear, TreeError> {
+fn linear(residuals: &impl Residuals, at: &[f64], bounds: &[Bounds]) -> Result<Linear, TreeError> {
+    if let Some(part) = residuals.differences() {
+        return about(residuals, at, bounds, part);
+    }
     let mut made = Linear { values: Vec::new(), columns: Vec::new() };
     for k in 0..at.len() {
         let dual = |(j, value): (usize, &f64)| Dual64::new(*value, if j == k { 1.0 } else { 0.0 });
@@ -245,6 +263,29 @@ fn linear(residuals: &impl Residuals, at: &[f64]) -> Result<Linear, TreeError> {
         let found = residuals.residuals(&parameters)?;
         made.values = found.iter().map(|one| one.re).collect();
         made.columns.push(found.iter().map(|one| one.eps).collect());
+    }
+    Ok(made)
+}
+
+/// The same by central differences over a part of each parameter, within its bounds.
+fn about(
+    residuals: &impl Residuals,
+    at: &[f64],
+    bounds: &[Bounds],
+    part: f64,
+) -> Result<Linear, TreeError> {
+    let mut made = Linear { values: residuals.values(at)?, columns: Vec::new() };
+    for (k, one) in bounds.iter().enumerate() {
+        let way = part * at[k].abs().max(1e-3);
+        let ends = [-way, way].map(|way| (at[k] + way).clamp(one.lower, one.upper));
+        let values = |end: f64| {
+            let mut there = at.to_vec();
+            there[k] = end;
+            residuals.values(&there)
+        };
+        let (low, high) = (values(ends[0])?, values(ends[1])?);
+        let length = (ends[1] - ends[0]).max(f64::MIN_POSITIVE);
+        made.columns.push(high.iter().zip(&low).map(|(b, a)| (b - a) / length).collect());
     }
     Ok(made)
 }
@@ -262,7 +303,9 @@ pub fn fit(
     checked(start, bounds)?;
     let square = |values: &[f64]| 0.5 * values.iter().map(|one| one * one).sum::<f64>();
     let mut at = start.to_vec();
-    let mut now = linear(residuals, &at)?;
+    let mut now = linear(residuals, &at, bounds)?;
+    // Changes far below the reach of differences say nothing
+    let least = residuals.differences().map_or(LEAST, |part| 1e-3 * part);
     let (mut damping, mut steps) = (1e-3, 0);
     while steps < most {
         let normal = Normal::new(&now.columns, &now.values);
@@ -282,8 +325,9 @@ pub fn fit(
             .collect();
         steps += 1;
         // A motion that fails is one that is worse
-        let tried =
-            linear(residuals, &next).ok().filter(|one| square(&one.values) < square(&now.values));
+        let tried = linear(residuals, &next, bounds)
+            .ok()
+            .filter(|one| square(&one.values) < square(&now.values));
         match tried {
             Some(better) => {
                 at = next;
@@ -292,7 +336,7 @@ pub fn fit(
             }
             None => damping *= 10.0,
         }
-        if change < LEAST || damping > 1e12 {
+        if change < least || damping > 1e12 {
             break;
         }
     }

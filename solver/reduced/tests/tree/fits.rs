@@ -62,7 +62,7 @@ fn what_is_undetermined_is_told() {
 }
 
 /// The tracks of an eel with coefficients that are to be found again: synthetic data.
-struct Tracks(Vec<f64>);
+struct Tracks(Vec<f64>, Option<f64>);
 
 fn track<T: alewife_reduced::tree::Number>(c: [T; 3]) -> Result<Vec<T>, TreeError> {
     let [normal, along, amplitude] = c;
@@ -88,12 +88,16 @@ impl Residuals for Tracks {
         let found = track([p[0], p[1], p[2]])?;
         Ok(found.iter().zip(&self.0).map(|(found, seen)| *found - *seen).collect())
     }
+
+    fn differences(&self) -> Option<f64> {
+        self.1
+    }
 }
 
 #[test]
 fn coefficients_and_gait_are_found_again_from_tracks() {
     let truth = [2.3, 0.4, 0.45];
-    let seen = Tracks(track(truth).expect("it swims"));
+    let seen = Tracks(track(truth).expect("it swims"), None);
     let bounds = [
         Bounds { lower: 0.0, upper: 20.0 },
         Bounds { lower: 0.0, upper: 5.0 },
@@ -106,4 +110,40 @@ fn coefficients_and_gait_are_found_again_from_tracks() {
     let outside = fit(&seen, &[25.0, 0.1, 0.6], &bounds, 60);
     assert!(matches!(outside, Err(TreeError::Given(_))));
     assert!(found.cost.sqrt() < 1e-8 && found.steps < 60);
+}
+
+/// Residuals whose derivatives are of no use, as those of a motion that forgets how it began.
+struct Forgets(Tracks);
+
+impl Residuals for Forgets {
+    fn residuals(&self, p: &[Dual64]) -> Result<Vec<Dual64>, TreeError> {
+        let wild = |one: Dual64| Dual64::new(one.re, f64::INFINITY);
+        Ok(self.0.residuals(p)?.into_iter().map(wild).collect())
+    }
+
+    fn differences(&self) -> Option<f64> {
+        self.0.1
+    }
+}
+
+#[test]
+fn differences_find_what_derivatives_without_end_do_not() {
+    let (truth, start) = ([2.3, 0.4, 0.45], [5.0, 0.1, 0.6]);
+    let bounds = [
+        Bounds { lower: 0.0, upper: 20.0 },
+        Bounds { lower: 0.0, upper: 5.0 },
+        Bounds { lower: 0.2, upper: 0.9 },
+    ];
+    let found = |differences: Option<f64>| {
+        let seen = Tracks(track(truth).expect("it swims"), differences);
+        fit(&Forgets(seen), &start, &bounds, 60).expect("it starts")
+    };
+    for (found, truth) in found(Some(0.02)).parameters.iter().zip(truth) {
+        assert!((found / truth - 1.0).abs() < 1e-4, "{found} {truth}");
+    }
+    assert_eq!(found(None).parameters, start);
+    // At a bound they go inside alone
+    let seen = Tracks(track(truth).expect("it swims"), Some(0.02));
+    let at_bounds = fit(&seen, &[20.0, 5.0, 0.9], &bounds, 60).expect("it starts");
+    assert!(at_bounds.cost < 1e-6, "{at_bounds:?}");
 }

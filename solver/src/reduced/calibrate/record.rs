@@ -323,6 +323,7 @@ impl Reader<'_> {
                 coefficients: self.reduced.coefficients.clone(),
                 body: self.reduced.body.clone(),
                 added_mass: self.reduced.added_mass,
+                lift: self.reduced.lift,
                 ..own
             },
             None => self.reduced.clone(),

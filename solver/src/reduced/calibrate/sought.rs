@@ -18,12 +18,16 @@ pub struct Sought {
     coefficients: Vec<Coefficient>,
     pub bounds: Vec<Bounds>,
     pub start: Vec<f64>,
+    /// Part of each that differences go to either side, if not exact derivatives are taken.
+    pub differences: Option<f64>,
 }
 
 impl Sought {
     pub fn new(spec: &CalibrationSpec, reduced: &ReducedSpec, model: &Model) -> Self {
         let all = reduced.loads.coefficients();
-        let mut sought = Self { coefficients: Vec::new(), bounds: Vec::new(), start: Vec::new() };
+        let (coefficients, bounds, start) = (Vec::new(), Vec::new(), Vec::new());
+        let differences = spec.differences;
+        let mut sought = Self { coefficients, bounds, start, differences };
         for name in &spec.fit {
             let FitName { body, coefficient } = FitName::new(name);
             let Some(number) = all.iter().position(|one| one.name == coefficient) else { continue };

@@ -21,8 +21,8 @@ struct Swims<'a> {
     sought: &'a Sought,
 }
 
-impl Residuals for Swims<'_> {
-    fn residuals(&self, parameters: &[Dual64]) -> Result<Vec<Dual64>, TreeError> {
+impl Swims<'_> {
+    fn left<T: Compiled>(&self, parameters: &[T]) -> Result<Vec<T>, TreeError> {
         let mut left = Vec::new();
         for record in self.records {
             let made = motion(record, |body, own| self.sought.filled(body, own, parameters))?;
@@ -33,6 +33,20 @@ impl Residuals for Swims<'_> {
             }
         }
         Ok(left)
+    }
+}
+
+impl Residuals for Swims<'_> {
+    fn residuals(&self, parameters: &[Dual64]) -> Result<Vec<Dual64>, TreeError> {
+        self.left(parameters)
+    }
+
+    fn differences(&self) -> Option<f64> {
+        self.sought.differences
+    }
+
+    fn values(&self, parameters: &[f64]) -> Result<Vec<f64>, TreeError> {
+        self.left(parameters)
     }
 }
 

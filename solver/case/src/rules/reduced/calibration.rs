@@ -15,6 +15,7 @@ pub fn check(findings: &mut Findings<'_>) {
             track(findings, &format!("calibration.tracks.{index}"), name);
         }
         records(findings, spec);
+        differences(findings, spec);
     }
     let reduced = findings.case().reduced.as_ref();
     if let Some(calibrated) = reduced.and_then(|reduced| reduced.calibrated.as_ref()) {
@@ -76,6 +77,19 @@ fn coefficients(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
     if !matches!(findings.case().time, TimeSettings::Unsteady(_)) {
         let message = "a steady flow has no motion to be fitted to".to_owned();
         findings.error("time.steady", message, "write [time.unsteady]");
+    }
+}
+
+/// Differences are of tracks, and small.
+fn differences(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
+    let Some(part) = spec.differences else { return };
+    let key = "calibration.differences";
+    if spec.fits() != FitBy::Tracks {
+        let message = "loads are fitted with their exact derivatives".to_owned();
+        findings.error(key, message, "leave it out, or write by = \"tracks\"");
+    } else if !(part > 0.0 && part < 1.0) {
+        let message = format!("differences over a part of {part} of a coefficient");
+        findings.error(key, message, "a number between 0 and 1, such as 0.02");
     }
 }
 

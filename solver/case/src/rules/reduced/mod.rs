@@ -57,12 +57,15 @@ fn coefficients(findings: &mut Findings<'_>, spec: &ReducedSpec) {
         }
         table(findings, spec.loads, &key, own);
     }
+    let help = "leave it out, or write loads = \"ellipsoid\"";
+    let name = spec.loads.name();
     if spec.added_mass.is_some() && spec.loads != LoadLaw::Ellipsoid {
-        findings.error(
-            "reduced.added_mass",
-            format!("the law \"{}\" has a coefficient in its place", spec.loads.name()),
-            "leave it out, or write loads = \"ellipsoid\"",
-        );
+        let message = format!("the law \"{name}\" has a coefficient in its place");
+        findings.error("reduced.added_mass", message, help);
+    }
+    if spec.lift.is_some() && spec.loads != LoadLaw::Ellipsoid {
+        let message = format!("the law \"{name}\" has no lift by the angle of attack");
+        findings.error("reduced.lift", message, help);
     }
 }
 

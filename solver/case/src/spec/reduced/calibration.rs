@@ -26,6 +26,11 @@ pub struct CalibrationSpec {
     /// Tracks of runs that are fitted: `NAME.x`, `.y`, `.z` or `.angle` of bodies; those of the first body if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tracks: Vec<String>,
+    /// Part of each coefficient that central differences go to either side in a fit to tracks, in place of exact derivatives:
+    /// for long motions that forget how they began, along which exact derivatives grow without end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+    pub differences: Option<f64>,
     /// Runs and records.
     #[cfg_attr(test, schemars(length(min = 1)))]
     pub from: Vec<RecordSpec>,
@@ -38,7 +43,7 @@ pub struct CalibrationSpec {
 pub enum FitBy {
     /// Loads on bodies that move as in the runs, by bounded least squares.
     Loads,
-    /// Ways and angles of bodies, by the method of Gauss and Newton with exact derivatives.
+    /// Ways and angles of bodies, by the method of Gauss and Newton with exact derivatives, or by `differences`.
     Tracks,
     /// Both, of runs: mean squares of loads over their size and of tracks over theirs, each as much as the other.
     Both,

@@ -30,6 +30,9 @@ pub struct ReducedSpec {
     /// What the fluid about an ellipsoid does by its inertia: `full` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub added_mass: Option<AddedMassSpec>,
+    /// The lift of ellipsoids by their angle of attack: `full` if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lift: Option<LiftSpec>,
     /// What bodies displace, by their names, where it is not what their shapes do.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub buoyancy: BTreeMap<String, BuoyancySpec>,
@@ -67,6 +70,19 @@ pub enum AddedMassSpec {
     Mujoco,
 }
 
+/// `lift`: one of these.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum LiftSpec {
+    /// By its formula, at any size.
+    Full,
+    /// As `MuJoCo` 3 has it (3.3.7; 4.0 has it full): its denominators are 1e-15 at least in SI units, which takes it from
+    /// parts of some centimetres.
+    #[serde(rename = "mujoco-3")]
+    Mujoco3,
+}
+
 impl ReducedSpec {
     /// A law with all its coefficients as they are where none is written.
     #[must_use]
@@ -76,6 +92,7 @@ impl ReducedSpec {
             coefficients: BTreeMap::new(),
             body: BTreeMap::new(),
             added_mass: None,
+            lift: None,
             buoyancy: BTreeMap::new(),
             thruster: Vec::new(),
             tendon: Vec::new(),

@@ -29,6 +29,19 @@ pub enum AddedMass {
     Mujoco,
 }
 
+/// The lift by the angle of attack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Lift {
+    /// By the formula, at any size.
+    #[default]
+    Full,
+    /// As `MuJoCo` 3 has it (3.3.7; 4.0 has it full): it fades out where parts are small and slow.
+    Mujoco3,
+}
+
+/// What the denominators of projections are at least in `MuJoCo` 3 (SI units).
+const LEAST: f64 = 1e-15;
+
 /// Coefficients without dimension.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EllipsoidCoefficients<T: Number> {
@@ -62,7 +75,8 @@ impl<T: Number> EllipsoidCoefficients<T> {
 /// g = -rho |C_a I w + C_s (I_max - I) w| w - 8 pi mu R^3 w
 /// ```
 ///
-/// where I = 8/15 pi `r_i` max(`r_j`, `r_k`)^4. To this comes the momentum of the fluid: masses m and moments of
+/// where I = 8/15 pi `r_i` max(`r_j`, `r_k`)^4. `MuJoCo` 3 divides by what is `LEAST` at least: with the fourth powers
+/// of areas in m2 that takes most of the lift from a part of some centimetres, and `Lift::Mujoco3` does the same. To this comes the momentum of the fluid: masses m and moments of
 /// inertia J of the potential flow (Lamb, Hydrodynamics, art. 114 and 373), their integrals exact or, as
 /// `AddedMass::Mujoco`, by the rule of 15 points that `MuJoCo` takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,6 +86,7 @@ pub struct Ellipsoid<T: Number> {
     viscosity: T,
     coefficients: EllipsoidCoefficients<T>,
     inertia: AddedMass,
+    lift: Lift,
     masses: Vector3<T>,
     moments: Vector3<T>,
     /// C_a I + C_s (I_max - I).
@@ -187,12 +202,19 @@ impl<T: Number> Ellipsoid<T> {
             viscosity,
             coefficients,
             inertia,
+            lift: Lift::Full,
             masses,
             moments: Vector3::new(moment(0), moment(1), moment(2)),
             turning: Vector3::new(turning(0), turning(1), turning(2)),
             largest_area: max * mid * PI,
             volume,
         }
+    }
+
+    /// The same ellipsoid with another lift by the angle of attack.
+    #[must_use]
+    pub fn lifted(self, lift: Lift) -> Self {
+        Self { lift, ..self }
     }
 
     /// Volume (m3).
@@ -244,11 +266,21 @@ impl<T: Number> Ellipsoid<T> {
         let square = Vector3::new(r.y * r.z, r.z * r.x, r.x * r.y).map(|a| a * a);
         let steep = square.component_mul(v);
         let upper = steep.dot(&steep);
-        let lower = v.dot(&steep);
+        let mut lower = v.dot(&steep);
+        let mut share: T = real(1.0);
+        if self.lift == Lift::Mujoco3 {
+            let under = speed * upper;
+            if under.re() < LEAST {
+                share = under / LEAST;
+            }
+            if lower.re() < LEAST {
+                lower = real(LEAST);
+            }
+        }
         let area = (upper / lower).sqrt() * PI;
         let size = self.density * (c.blunt * area + c.slender * (self.largest_area - area));
         let normal = steep / upper.sqrt();
-        let lift = c.kutta * self.density * area;
+        let lift = c.kutta * self.density * area * share;
         found.wrench.force -= v * (size * speed);
         found.wrench.force += normal.cross(v).cross(v) * (lift * v.dot(&normal) / speed);
         let identity = Matrix3::from_diagonal(&Vector3::from_element(size * speed));

@@ -6,7 +6,7 @@ mod resistive;
 mod strips;
 mod vehicle;
 
-pub use ellipsoid::{AddedMass, Ellipsoid, EllipsoidCoefficients};
+pub use ellipsoid::{AddedMass, Ellipsoid, EllipsoidCoefficients, Lift};
 pub use elongated::ElongatedBody;
 pub use resistive::Resistive;
 pub use strips::{StripCoefficients, Strips};
