@@ -66,7 +66,7 @@ fn names_and_paths_of_the_architecture_exist() {
     // Packages and crates are in no source file.
     let mut names: BTreeSet<String> = ["core", "benches"].map(str::to_owned).into();
     let mut paths = Vec::new();
-    for folder in ["cases", "docs", "mesh", "postprocess", "solver", "tests"] {
+    for folder in ["cases", "docs", "interrupt", "mesh", "postprocess", "solver", "tests"] {
         paths.push(format!("/{folder}/"));
         add_paths(&root().join(folder), &mut paths);
     }

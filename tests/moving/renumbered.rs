@@ -94,8 +94,8 @@ fn hinge(direction: f64, n_steps: usize) -> Model {
     ))
 }
 
-/// More questions whether to stop than are asked within a step.
-const MOST_QUESTIONS: usize = 100_000;
+/// More questions whether to stop than are asked within a step, factorisations and assembly included.
+const MOST_QUESTIONS: usize = 5000;
 
 impl Turning {
     /// How far the axis is beyond the diagonal after the steps, from its direction at first.
@@ -125,7 +125,8 @@ impl Turning {
         (0..2).fold(FRAC_PI_4, nearer)
     }
 
-    /// Stops a run before the last of the steps, at questions all over it whether to stop, and after it: what continues
+    /// Stops a run before the last of the steps, at the first questions whether to stop in it, at some of those that
+    /// follow, and after it: what continues
     /// from there has the same state, with all quantities so far, one step later.
     fn goes_on_with_the_same_bits<const D: usize>(&self, direction: f64, off: f64)
     where
@@ -135,8 +136,8 @@ impl Turning {
         assert!((is - off).abs() < 0.5 * off.abs(), "{off:e} was wanted, and it is {is:e}");
         let (model, end) = ((self.model)(direction, self.steps + 2), self.steps + 1);
         let whole: SavedState<D> = stopped(&model, end);
-        let mut spared = 0;
-        while spared < MOST_QUESTIONS {
+        let next = |spared: &usize| Some(spared + 1 + spared / 3);
+        for spared in std::iter::successors(Some(0), next).take_while(|n| *n < MOST_QUESTIONS) {
             let stopped = stopped_within_a_step::<D>(&model, self.steps - 1, spared).state;
             let saved = stopped.expect("it left a state");
             let rest = stopped_again(&model, &saved, end);
@@ -144,8 +145,6 @@ impl Turning {
             if saved.step() == self.steps {
                 return;
             }
-            // Factorisations ask often: of many questions in a row a part stands for all
-            spared += 1 + spared / 2;
         }
         panic!("the step does not end");
     }

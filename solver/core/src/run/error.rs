@@ -4,9 +4,9 @@ use alewife_interrupt::Stopped;
 use alewife_mesh::MeshError;
 use thiserror::Error;
 
-use super::cell_bound::Allowed;
 use super::excess::Excess;
 use super::resume::ResumeError;
+use super::watch::Allowed;
 use crate::case::{CommandError, rounded};
 use crate::contact::ContactError;
 use crate::coupling::{ShapeError, coordinates};

@@ -2,7 +2,6 @@
 
 mod build;
 mod case_mesh;
-mod cell_bound;
 mod control;
 mod error;
 mod excess;
@@ -28,7 +27,6 @@ mod watch;
 
 pub use build::{BodyRecoil, build_problem, motion_settings, recoils, shape_motion, sizing};
 pub use case_mesh::{CaseMesh, Dimension, InitialMesh, NearestOnBody, build_mesh};
-pub use cell_bound::{Allowed, AllowedBy, CellBound};
 pub use error::RunError;
 pub use excess::Excess;
 pub use measure::{BodiesInFlow, steady_value};
@@ -44,3 +42,4 @@ pub use snapshot::{BodyReport, LastState, Observer, Recorded, Snapshot};
 pub use solve::{Solve, replay, simulate, simulate_from};
 pub use step_control::{Piece, StepControl};
 pub use timed_step::{Effort, TimedStep};
+pub use watch::{Allowed, AllowedBy, CellBound};

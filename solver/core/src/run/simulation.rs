@@ -5,9 +5,9 @@ use alewife_mesh::{CellId, NodeId};
 use rayon::prelude::*;
 
 use super::build::{Scalars, Tracers};
-use super::cell_bound::{AtHand, CellBound, nearest_gap};
 use super::error::RunError;
 use super::step_control::StepControl;
+use super::watch::{AtHand, CellBound, nearest_gap};
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
 use crate::coupling::{

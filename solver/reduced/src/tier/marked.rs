@@ -1,11 +1,10 @@
 //! The nodes that the markers of a case are, which have to be near its solid.
 
 use crate::soft::SoftBody;
+use alewife_case::Diagnostic;
 use alewife_case::soft::SoftFile;
 use alewife_mesh::Point;
 use alewife_solid::solid::SolidMesh;
-
-use super::model::TierError;
 
 /// The nodes of the markers of a case.
 ///
@@ -14,7 +13,7 @@ use super::model::TierError;
 pub(super) fn markers<const D: usize>(
     file: &SoftFile,
     body: &SoftBody<D>,
-) -> Result<Vec<usize>, TierError> {
+) -> Result<Vec<usize>, Vec<Diagnostic>> {
     let mesh = &body.solid.spec().mesh;
     let widest =
         mesh.cells.chunks(mesh.n_local()).map(|cell| width(mesh, cell)).fold(0.0, f64::max);
@@ -33,7 +32,7 @@ pub(super) fn markers<const D: usize>(
             wrong.push(file.error(&key, message, &reach(mesh)));
         }
     }
-    if wrong.is_empty() { Ok(nodes) } else { Err(TierError::Case(wrong)) }
+    if wrong.is_empty() { Ok(nodes) } else { Err(wrong) }
 }
 
 /// Where markers may be, in words.

@@ -64,7 +64,7 @@ where
         let recorded = recorded(file)?;
         let mesh = <mesh::Bodies as SolidOf<D>>::mesh(file, solid)?;
         let body = solid::body(file, solid, mesh)?;
-        let nodes = markers(file, &body)?;
+        let nodes = markers(file, &body).map_err(TierError::Case)?;
         let soft = &file.case.soft;
         let scheme = match soft.scheme {
             SoftScheme::Euler => Scheme::ImplicitEuler,

@@ -1,6 +1,7 @@
 //! What a run looks out for: a flow that has blown up, steps too long for it, contact too weak, bodies that leave.
 
 mod blow_up;
+mod cell_bound;
 mod drives;
 mod force_agreement;
 mod given_loads;
@@ -10,6 +11,8 @@ mod resolution;
 mod sound_state;
 mod soundness;
 
+pub use cell_bound::{Allowed, AllowedBy, CellBound};
+pub(super) use cell_bound::{AtHand, nearest_gap};
 pub(super) use force_agreement::ForceAgreement;
 pub(super) use pace::Pace;
 pub(super) use sound_state::SoundState;

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use super::free_memory::{free_memory, taken_memory};
 use crate::case::Case;
 use crate::motion::{MostCells, MovingMesh};
+use crate::run::free_memory::{free_memory, taken_memory};
 use crate::state::State;
 
 /// Cells of a new mesh over those of the first one beyond which a gap closes without end, unless the case says how
@@ -26,7 +26,7 @@ pub struct CellBound {
 
 /// The mesh at hand and how its system is solved.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct AtHand {
+pub(in crate::run) struct AtHand {
     /// Its cells.
     pub n_cells: usize,
     /// Whether iterations solve its system, and not factors.
@@ -83,12 +83,12 @@ impl CellBound {
     }
 
     /// That of a run which begins with so many cells, before its first system is made.
-    pub(super) fn new(case: &Case, first: usize) -> Self {
+    pub(in crate::run) fn new(case: &Case, first: usize) -> Self {
         Self { given: case.mesh.max_cells, first, before: taken_memory() }
     }
 
     /// What a mesh may have that takes the place of one.
-    pub(super) fn allowed<const D: usize>(&self, at_hand: AtHand) -> Allowed {
+    pub(in crate::run) fn allowed<const D: usize>(&self, at_hand: AtHand) -> Allowed {
         let first = self.first as f64;
         let by_case = match self.given {
             Some(given) => Allowed { most: given as f64, by: AllowedBy::Case },
@@ -127,7 +127,10 @@ fn exponent<const D: usize>(n_cells: usize, is_iterative: bool) -> f64 {
 }
 
 /// The smallest gap of a state in words, to be added to a sentence; nothing where there is none.
-pub(super) fn nearest_gap<const D: usize>(state: &State<D>, moving: &MovingMesh<D>) -> String {
+pub(in crate::run) fn nearest_gap<const D: usize>(
+    state: &State<D>,
+    moving: &MovingMesh<D>,
+) -> String {
     let Some(minimum) = state.contact.minimum_gap else { return String::new() };
     let gaps = moving.gaps();
     let (body, partner) = (gaps.body_name(minimum.body), gaps.partner_name(minimum.partner));
@@ -136,7 +139,7 @@ pub(super) fn nearest_gap<const D: usize>(state: &State<D>, moving: &MovingMesh<
 
 impl Allowed {
     /// As meshes are measured by it.
-    pub(super) fn cells(&self) -> MostCells {
+    pub(in crate::run) fn cells(&self) -> MostCells {
         MostCells(self.most)
     }
 }
