@@ -223,7 +223,13 @@ fn mistakes_are_refused_without_a_panic_and_at_once() {
 /// Few of the shipped cases have rods.
 #[test]
 fn mistakes_in_cases_of_rods_are_refused_without_a_panic_and_at_once() {
-    let names = ["elastic-flagellum", "settling-fibre", "cilia-pair", "biflagellate"];
+    let names = [
+        "elastic-flagellum",
+        "settling-fibre",
+        "cilia-pair",
+        "biflagellate",
+        "flexible-magnetic-swimmer",
+    ];
     let [accepted, refused, wrong] = fates(&names, number_of_mutants(MUTANTS_OF_RODS));
     assert_eq!(wrong, 0);
     assert!(accepted > 0 && refused > 0);
