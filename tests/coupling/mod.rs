@@ -10,7 +10,6 @@ mod loads;
 mod magnets;
 mod mean_flow;
 mod periodic_given;
-mod profiles;
 mod rods_on_bodies;
 mod sides;
 mod step_errors;

@@ -9,7 +9,6 @@ mod lattice;
 mod outline;
 mod placement;
 mod profile;
-mod scattered;
 mod shape;
 mod size_field;
 mod spline;
@@ -22,11 +21,12 @@ pub use closest::{
 };
 pub use domain::Domain;
 pub use gap_query::GapQuery;
-pub use generate::{Triangles, generate, generate_wrapped, points_of_outline, triangulate_inside};
+pub use generate::{
+    Scattered, Shares, Triangles, generate, generate_wrapped, points_of_outline, triangulate_inside,
+};
 pub use outline::{Nearest, Outline};
 pub use placement::{SMALLEST_GAP, check_placement, check_wrapped_placement};
 pub use profile::{FishForm, FlagellateForm, Profile, Station, TubeForm};
-pub use scattered::{Scattered, Shares};
 pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
 pub use size_field::{SizeField, estimate_cells};
 pub use spline::Spline;

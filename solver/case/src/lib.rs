@@ -59,7 +59,7 @@ pub use spec::comparison::reference::{
 pub use spec::comparison::statistic::{ForceComponent, Statistic, StatisticKind};
 pub use spec::comparison::uncertainty::Uncertainty;
 pub use spec::contact::{ContactLosses, ContactSpec};
-pub use spec::domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
+pub use spec::domain::{BoundaryCondition, DomainSpec, Geometry};
 pub use spec::environment::{
     Action, Ending, EnvironmentSpec, Law, Observation, Randomised, RangedAction, RewardTerm,
     ScaledObservation,
@@ -93,6 +93,7 @@ pub use spec::reduced::{AddedMassSpec, LiftSpec, ReducedSpec};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };
+pub use spec::time_function::TimeFunction;
 pub use spec::units::{UnitLabels, Units};
 pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use text::diagnostic::{CaseError, Diagnostic, Severity, printable};

@@ -15,10 +15,12 @@ mod order;
 mod point_tree;
 mod quadratic;
 mod relax;
+mod scattered;
 mod trial;
 mod triangulation;
 
 pub use interior::{Triangles, points_of_outline, triangulate_inside};
+pub use scattered::{Scattered, Shares};
 
 use edges::BoundaryEdges;
 use mirror::Mirror;

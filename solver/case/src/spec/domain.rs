@@ -2,12 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::body::command::Command;
-use super::body::stroke::Cycle;
 use super::formula::Formula;
 use super::profile::ProfileSpec;
+use super::time_function::TimeFunction;
 #[cfg(test)]
-use crate::spec::number::{FormulaPerDimension, NonNegative, NonZero, PerDimension, Positive};
+use crate::spec::number::{FormulaPerDimension, NonZero, PerDimension, Positive};
 use crate::{MeshFile, RegionSpec};
 
 /// Dimension and symmetry of the problem.
@@ -116,65 +115,6 @@ pub enum DomainSpec {
     /// The inside of a closed surface from an STL, OBJ or PLY file, with named sides (spatial).
     #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Surface(RegionSpec),
-}
-
-/// A named function of time (1), used as a factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum TimeFunction {
-    /// From 0 to 1 over the duration, linearly, then 1.
-    Ramp {
-        /// Time until the full value (s).
-        #[cfg_attr(test, schemars(with = "Positive"))]
-        duration: f64,
-    },
-    /// From 0 to 1 as (1 - cos(pi t / duration)) / 2, then 1.
-    SmoothRamp {
-        /// Time until the full value (s).
-        #[cfg_attr(test, schemars(with = "Positive"))]
-        duration: f64,
-    },
-    /// mean + amplitude sin(2 pi (t / period + phase)).
-    Sine {
-        /// Mean value (1).
-        #[serde(default)]
-        mean: f64,
-        /// Amplitude (1).
-        #[serde(default = "one")]
-        amplitude: f64,
-        /// Period (s).
-        #[cfg_attr(test, schemars(with = "Positive"))]
-        period: f64,
-        /// Phase (periods).
-        #[serde(default)]
-        phase: f64,
-        /// Time over which the amplitude grows from 0, twice continuously differentiable (s); 0 for
-        /// the full amplitude from the start.
-        #[serde(default, skip_serializing_if = "is_zero")]
-        #[cfg_attr(test, schemars(with = "NonNegative"))]
-        ramp: f64,
-    },
-    /// Straight lines between (time, value) knots, constant outside them.
-    Table(Vec<[f64; 2]>),
-    /// Cubic polynomials between (time, value, rate) knots, which cover the run; what the columns of
-    /// a file become.
-    Cubic(Vec<[f64; 3]>),
-    /// Cubic polynomials between (time, value, rate) knots over one period, over and over; what the columns
-    /// of a file with a `period` become.
-    Cycle(Cycle),
-    /// What a session or a recording asks for while the run goes on.
-    Command(Command),
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-/// Whether a ramp is not written.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
 }
 
 /// What holds on a side of the domain.

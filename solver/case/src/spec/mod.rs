@@ -20,5 +20,5 @@ pub(crate) mod output;
 pub(crate) mod profile;
 pub(crate) mod reduced;
 pub(crate) mod time;
-mod time_function;
+pub(crate) mod time_function;
 pub(crate) mod units;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::domain::TimeFunction;
+use super::time_function::TimeFunction;
 
 /// A velocity on a side by numbers at places of it, linear between them: a measurement, or another computation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

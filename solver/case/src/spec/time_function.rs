@@ -1,9 +1,73 @@
-//! Functions of time at a time, and their integrals: how far a motion with a factor leads.
+//! `TimeFunction`: a factor in time, its value at a time, and its integrals: how far a motion with a factor leads.
 
 use std::f64::consts::{PI, TAU};
 
-use crate::spec::body::stroke::cubic_at;
-use crate::{Stroke, TimeFunction, smooth_ramp};
+use serde::{Deserialize, Serialize};
+
+use crate::spec::body::command::Command;
+use crate::spec::body::stroke::{Cycle, cubic_at};
+#[cfg(test)]
+use crate::spec::number::{NonNegative, Positive};
+use crate::{Stroke, smooth_ramp};
+
+/// A named function of time (1), used as a factor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum TimeFunction {
+    /// From 0 to 1 over the duration, linearly, then 1.
+    Ramp {
+        /// Time until the full value (s).
+        #[cfg_attr(test, schemars(with = "Positive"))]
+        duration: f64,
+    },
+    /// From 0 to 1 as (1 - cos(pi t / duration)) / 2, then 1.
+    SmoothRamp {
+        /// Time until the full value (s).
+        #[cfg_attr(test, schemars(with = "Positive"))]
+        duration: f64,
+    },
+    /// mean + amplitude sin(2 pi (t / period + phase)).
+    Sine {
+        /// Mean value (1).
+        #[serde(default)]
+        mean: f64,
+        /// Amplitude (1).
+        #[serde(default = "one")]
+        amplitude: f64,
+        /// Period (s).
+        #[cfg_attr(test, schemars(with = "Positive"))]
+        period: f64,
+        /// Phase (periods).
+        #[serde(default)]
+        phase: f64,
+        /// Time over which the amplitude grows from 0, twice continuously differentiable (s); 0 for
+        /// the full amplitude from the start.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        #[cfg_attr(test, schemars(with = "NonNegative"))]
+        ramp: f64,
+    },
+    /// Straight lines between (time, value) knots, constant outside them.
+    Table(Vec<[f64; 2]>),
+    /// Cubic polynomials between (time, value, rate) knots, which cover the run; what the columns of
+    /// a file become.
+    Cubic(Vec<[f64; 3]>),
+    /// Cubic polynomials between (time, value, rate) knots over one period, over and over; what the columns
+    /// of a file with a `period` become.
+    Cycle(Cycle),
+    /// What a session or a recording asks for while the run goes on.
+    Command(Command),
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Whether a ramp is not written.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
+}
 
 impl TimeFunction {
     /// Its value at a time (s). Inlined, as this package is compiled to read files, not to compute.

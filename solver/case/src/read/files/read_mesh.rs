@@ -6,7 +6,8 @@ use std::sync::Arc;
 use alewife_mesh::{MshOptions, Place};
 
 use crate::read::library;
-use crate::spec::given_mesh::mesh_file::{Contents, MeshSource};
+use crate::spec::given_mesh::contents::Contents;
+use crate::spec::given_mesh::mesh_file::MeshSource;
 use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TreeError};
 use crate::{Case, DomainSpec};

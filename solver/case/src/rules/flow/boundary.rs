@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use super::given_flow::check_given;
 use super::given_mesh;
-use super::profile::check_profile;
 use crate::model::region::{normal_axis, opposite};
 use crate::rules::Findings;
 use crate::rules::body::joints::{check_cycle, cubic};
@@ -68,6 +68,7 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         DomainSpec::Mesh(_) | DomainSpec::Surface(_) => {
             given_mesh::check_side(findings, key, side, condition);
             check_given(findings, key, condition);
+            check_factor_of(findings, key, condition);
             return;
         }
     };
@@ -114,27 +115,7 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         _ => {}
     }
     check_given(findings, key, condition);
-}
-
-/// What is given of a flow, by itself.
-fn check_given(findings: &mut Findings<'_>, key: &str, condition: &BoundaryCondition) {
-    check_developed(findings, key, condition);
-    if let BoundaryCondition::Profile(profile) = condition {
-        check_profile(findings, &format!("{key}.profile"), profile);
-    }
     check_factor_of(findings, key, condition);
-}
-
-/// A developed flow has its flux or its largest velocity.
-fn check_developed(findings: &mut Findings<'_>, key: &str, condition: &BoundaryCondition) {
-    let BoundaryCondition::Developed { flux, peak, .. } = condition else { return };
-    if flux.is_some() == peak.is_some() {
-        findings.error(
-            &format!("{key}.developed"),
-            "a developed flow has a `flux` or a `peak`, one of them".to_owned(),
-            "write { developed = { flux = ... } } (m3/s; m2/s planar) or { developed = { peak = ... } } (m/s)",
-        );
-    }
 }
 
 /// The factor in time of a condition, if it has one.

@@ -3,10 +3,10 @@
 pub(super) mod boundary;
 pub(super) mod cells;
 pub(super) mod fluid;
+mod given_flow;
 pub(super) mod given_mesh;
 pub(super) mod mean_flow;
 pub(super) mod mesh;
-mod profile;
 pub(super) mod scalars;
 pub(super) mod tracers;
 mod viscosity;

@@ -36,7 +36,7 @@ use self::orientation::Orientation;
 use self::rod::{Activation, Attached, RodSpec};
 use self::spring::SpringSpec;
 use self::squirmer::SquirmerGait;
-use super::domain::TimeFunction;
+use super::time_function::TimeFunction;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, NonZero, PerDimension, Positive};
 

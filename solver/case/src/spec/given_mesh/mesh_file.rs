@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use alewife_mesh::spatial::Imported;
-use alewife_mesh::{
-    BoundaryId, Bounds, DomainMesh, Mesh, MshError, MshOptions, SidePair, SideShape, Unpaired,
-};
+use alewife_mesh::{BoundaryId, Mesh, SidePair, SideShape, Unpaired};
 use serde::{Deserialize, Serialize};
 
+use super::contents::{Contents, GivenMesh, NamedSide};
 use super::region_mesh::{RegionFault, RegionMesh};
 use crate::spec::extent::Extent;
 
@@ -60,21 +59,6 @@ impl PartialEq for MeshFile {
     }
 }
 
-/// What a file holds.
-#[derive(Debug)]
-pub(crate) struct Contents {
-    /// Content of the file; `None` of a mesh that was made.
-    bytes: Option<Vec<u8>>,
-    mesh: GivenMesh,
-    sides: Vec<NamedSide>,
-    extent: Extent,
-    n_cells: usize,
-    measure: f64,
-    notes: Vec<String>,
-    /// Along which coordinates sides are periodic.
-    periodic: [bool; 3],
-}
-
 /// Why sides are no periodic pairs.
 pub(crate) struct UnpairedSides {
     /// The side of the node without a partner.
@@ -93,60 +77,6 @@ fn numbered<const D: usize>(mesh: &Mesh<D>, pairs: &[[String; 2]]) -> Vec<SidePa
         Some(SidePair { original: number(original)?, copy: number(copy)? })
     };
     pairs.iter().filter_map(pair).collect()
-}
-
-/// A mesh of the dimension of the case.
-#[derive(Debug)]
-enum GivenMesh {
-    Planar(Mesh<2>),
-    Spatial(Imported),
-}
-
-#[derive(Debug)]
-struct NamedSide {
-    name: String,
-    shape: SideShape,
-}
-
-impl Contents {
-    /// Reads the content of a file as a mesh of this many dimensions.
-    pub(crate) fn read(
-        bytes: Vec<u8>,
-        options: &MshOptions,
-        dimensions: usize,
-    ) -> Result<Self, MshError> {
-        if dimensions == 2 {
-            let read = DomainMesh::<2>::read(&bytes, options)?;
-            Ok(Self::of(Some(bytes), &read, GivenMesh::Planar(read.mesh.clone())))
-        } else {
-            let read = DomainMesh::<3>::read(&bytes, options)?;
-            let imported = Imported::new(read.mesh.clone());
-            Ok(Self::of(Some(bytes), &read, GivenMesh::Spatial(imported)))
-        }
-    }
-
-    /// A mesh that was made inside a surface.
-    pub(crate) fn of_region(mesh: Mesh<3>) -> Self {
-        let imported = Imported::new(mesh.clone());
-        Self::of(None, &DomainMesh::of(mesh), GivenMesh::Spatial(imported))
-    }
-
-    fn of<const D: usize>(bytes: Option<Vec<u8>>, from: &DomainMesh<D>, mesh: GivenMesh) -> Self {
-        let sides = from.mesh.boundaries.iter().zip(&from.sides);
-        let sides =
-            sides.map(|(boundary, shape)| NamedSide { name: boundary.name.clone(), shape: *shape });
-        let bounds = Bounds::around(&from.mesh.nodes);
-        Self {
-            bytes,
-            sides: sides.collect(),
-            extent: Extent::between(bounds.min.as_slice(), bounds.max.as_slice()),
-            n_cells: from.mesh.n_cells(),
-            measure: from.measure,
-            notes: from.notes.clone(),
-            periodic: [false; 3],
-            mesh,
-        }
-    }
 }
 
 impl MeshFile {

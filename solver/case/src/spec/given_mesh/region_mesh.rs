@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use alewife_mesh::spatial::{Region, estimate_cells_inside, generate_inside};
 use alewife_mesh::{MeshError, Sizing};
 
-use super::mesh_file::Contents;
+use super::contents::Contents;
 
 /// Most cells of the inside.
 const MOST_CELLS: f64 = 5e6;

@@ -1,15 +1,12 @@
 //! From a `Case` to a `Problem`.
 
-mod balance;
 mod bodies;
 mod formulas;
 mod joints;
 mod magnets;
 mod motion_settings;
-mod profile;
 mod rod;
 mod scalars;
-mod section;
 mod shape_motion;
 mod sides;
 mod sizing;
@@ -18,7 +15,6 @@ mod tracers;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 
-use self::balance::check_net_inflow;
 use self::bodies::rigid_body;
 use self::formulas::vector;
 use self::joints::add_joint;
@@ -28,7 +24,7 @@ use self::rod::attach;
 pub(super) use self::rod::rod_shape;
 pub use self::scalars::Scalars;
 pub use self::shape_motion::{BodyRecoil, recoils, shape_motion};
-use self::sides::side;
+use self::sides::{check_net_inflow, side};
 pub(super) use self::sizing::limits;
 pub use self::sizing::sizing;
 pub(super) use self::solid::{no_solid, sides_of_bodies};

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::lock::Lock;
 use crate::spec::body::stroke::Stroke;
-use crate::spec::domain::TimeFunction;
 #[cfg(test)]
 use crate::spec::number::Direction;
+use crate::spec::time_function::TimeFunction;
 
 /// Each motion in its own way; what is left out is held.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

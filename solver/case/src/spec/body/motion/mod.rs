@@ -14,9 +14,9 @@ use serde::{Deserialize, Serialize};
 use self::by_axis::MotionsByAxis;
 pub use self::lock::Lock;
 use super::axial_vector::AxialVector;
-use crate::spec::domain::TimeFunction;
 #[cfg(test)]
 use crate::spec::number::PerDimension;
+use crate::spec::time_function::TimeFunction;
 
 /// How a body moves as a whole.
 #[derive(Debug, Clone, PartialEq, Serialize)]

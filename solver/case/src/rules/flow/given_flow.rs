@@ -1,15 +1,35 @@
-//! Problems of velocities that are given by numbers at places of a side.
+//! Problems of flows that are given on a side, each by itself: developed ones, and numbers at places.
 
 use std::collections::BTreeMap;
 
 use crate::rules::Findings;
-use crate::{ProfileColumn, ProfileSpec};
+use crate::{BoundaryCondition, ProfileColumn, ProfileSpec};
 
 /// What a profile is made of.
 const WANTED: &str = "write a header of coordinates and velocities, such as y,velocity.x, and a row of numbers for each place";
 
+/// What is given of a flow, by itself.
+pub fn check_given(findings: &mut Findings<'_>, key: &str, condition: &BoundaryCondition) {
+    check_developed(findings, key, condition);
+    if let BoundaryCondition::Profile(profile) = condition {
+        check_profile(findings, &format!("{key}.profile"), profile);
+    }
+}
+
+/// A developed flow has its flux or its largest velocity.
+fn check_developed(findings: &mut Findings<'_>, key: &str, condition: &BoundaryCondition) {
+    let BoundaryCondition::Developed { flux, peak, .. } = condition else { return };
+    if flux.is_some() == peak.is_some() {
+        findings.error(
+            &format!("{key}.developed"),
+            "a developed flow has a `flux` or a `peak`, one of them".to_owned(),
+            "write { developed = { flux = ... } } (m3/s; m2/s planar) or { developed = { peak = ... } } (m/s)",
+        );
+    }
+}
+
 /// Its columns and rows.
-pub fn check_profile(findings: &mut Findings<'_>, key: &str, profile: &ProfileSpec) {
+fn check_profile(findings: &mut Findings<'_>, key: &str, profile: &ProfileSpec) {
     let n = findings.case().geometry.dimensions();
     let columns = &profile.columns;
     if profile.rows.is_empty() || columns.is_empty() {

@@ -1,10 +1,16 @@
 //! What holds on the sides of a domain.
 
+mod balance;
+mod profile;
+mod section;
+
+pub(super) use balance::check_net_inflow;
+
 use alewife_mesh::{Circle, Mesh, Point, SideShape};
 
+use self::profile::profile;
+use self::section::{Amount, developed};
 use super::formulas::{number, vector};
-use super::profile::profile;
-use super::section::{Amount, developed};
 
 use crate::case::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, normal_axis};
 use crate::coupling::{Side, VelocityProfile};
