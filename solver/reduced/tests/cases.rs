@@ -295,10 +295,10 @@ fn wrong_cases_and_records_are_refused_with_key_line_and_remedy() {
             "give a place on the solid at rest (m): x from 0.0000 to 0.0120, y from -0.0600 to 0.0600",
         ),
         (
-            changed("[record]", "[robot.set]\n\"solid.0.material.yong\" = 1.0\n\n[record]"),
+            changed("[robot.set]", "[robot.set]\n\"solid.0.material.yong\" = 1.0"),
             good.clone(),
             "robot.set.solid.0.material.yong",
-            "case.toml:38:27",
+            "case.toml:58:27",
         ),
         (
             changed("young = 4e4", "young = nan"),

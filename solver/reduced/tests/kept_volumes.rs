@@ -163,13 +163,13 @@ fn what_cannot_keep_its_volume_is_refused_with_key_line_and_remedy() {
         (
             "\"solid.0.material.young\" = 6e4",
             "\"solid.0.material.poisson\" = 0.4",
-            "robot.set",
+            "robot.set.solid.0.material.poisson",
             "for both or for none",
         ),
         (
             "\"solid.0.material.young\" = 6e4",
             "\"solid.0.part.1.material.poisson\" = 0.5",
-            "robot.set",
+            "robot.set.solid.0.part.1.material.poisson",
             "for both or for none",
         ),
     ] {
