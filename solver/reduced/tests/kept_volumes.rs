@@ -4,6 +4,7 @@ use std::fs;
 
 use alewife_case::soft::search::{ObjectiveSpec, Parameter};
 use alewife_case::soft::{SoftFile, check};
+use alewife_mesh::Point;
 use alewife_reduced::search::Sought as _;
 use alewife_reduced::tier::{Kind, Model, Seeker, Sought, write_fields};
 use tempfile::TempDir;
@@ -101,6 +102,30 @@ fn a_bar_of_several_materials_keeps_the_volumes_it_should() {
     write_fields(out.path(), &model, &motion).expect("it is written");
     let bytes = fs::read(out.path().join("fields/frame-0006.vtu")).expect("it is there");
     assert!(String::from_utf8_lossy(&bytes).contains("\"pressure\""));
+}
+
+/// Where all nodes of a cell are held, nothing determines pressures in it, and they move nothing.
+#[test]
+fn cells_that_are_held_as_a_whole_are_as_if_they_were_not_there() {
+    let hold = "region = { from = [-inf, -inf], to = [0.02, inf] }";
+    let held = BAR.replace("region = { from = [0.0, -inf], to = [0.0, inf] }", hold);
+    let cut = held.replace(
+        "from = [0.0, -0.01], to = [0.12, 0.01], cells = [12, 2]",
+        "from = [0.02, -0.01], to = [0.12, 0.01], cells = [10, 2]",
+    );
+    assert!(held != BAR && cut != held);
+    let tip = |text: &str| {
+        let model = Model::<2>::new(&read(text)).expect("it is a body");
+        let motion = model.body.simulate(&model.plan).expect("it moves");
+        let nodes = &model.body.solid.spec().mesh.nodes;
+        let is_tip = |node: &Point<2>| (node - Point::<2>::new(0.12, 0.0)).norm() < 1e-9;
+        let tip = nodes.iter().position(is_tip).expect("there is one");
+        let places = &motion.levels.last().expect("it has levels").places;
+        Point::<2>::new(places[2 * tip], places[2 * tip + 1])
+    };
+    let [held, cut] = [&held, &cut].map(|text| tip(text));
+    assert!((cut - Point::<2>::new(0.12, 0.0)).norm() > 1e-4, "{cut}");
+    assert!((held - cut).norm() < 1e-9, "{held} {cut}");
 }
 
 #[test]

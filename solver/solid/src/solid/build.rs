@@ -114,14 +114,15 @@ impl<const D: usize> Solid<D> {
         let points = CellPoints::new(&spec.mesh, spec.frame)?;
         let mut lame: Vec<Lame> = spec.materials.iter().map(Material::lame).collect();
         let ties = stiffen(&mut spec, &mut lame)?;
-        let pressures = pressures(&spec)?;
+        let held = held_components(&spec)?;
+        let pressures = pressures(&spec, &held, &ties)?;
         let cells = Cells::<D> {
             nodes: &spec.mesh.cells,
             n_local: points.n_local,
             pressures: &pressures,
             ties: &ties,
         };
-        let pattern = Pattern::new(&cells, &held_components(&spec)?);
+        let pattern = Pattern::new(&cells, &held);
         if pattern.n_places == 0 {
             return Err(SolidError::AllHeld);
         }
@@ -337,13 +338,24 @@ fn stiffen<const D: usize>(
     Ok(ties)
 }
 
-/// The pressures of cells that keep their volume.
-fn pressures<const D: usize>(spec: &SolidSpec<D>) -> Result<Pressures, SolidError> {
+/// The pressures of cells that keep their volume. A cell whose nodes are all held, or all of one rigid part, does so by
+/// itself: nothing would determine its pressures.
+fn pressures<const D: usize>(
+    spec: &SolidSpec<D>,
+    held: &[bool],
+    ties: &Ties,
+) -> Result<Pressures, SolidError> {
     let n_local = spec.mesh.n_local();
+    let is_fixed = |nodes: &[usize]| {
+        let part = ties.part_of(nodes[0]);
+        let is_held = |node: &usize| held[D * node..D * node + D].iter().all(|held| *held);
+        nodes.iter().all(is_held)
+            || (part.is_some() && nodes.iter().all(|node| ties.part_of(*node) == part))
+    };
     let cells = spec.mesh.cells.chunks_exact(n_local).enumerate().map(|(cell, nodes)| {
         let number = spec.material_of.get(cell).copied().unwrap_or(0);
         let is_kept = spec.materials[number].is_incompressible();
-        (is_kept.then_some(number), &nodes[..=D])
+        ((is_kept && !is_fixed(nodes)).then_some(number), &nodes[..=D])
     });
     let pressures = Pressures::new(cells, D * spec.mesh.nodes.len());
     if pressures.count() > 0 && spec.mesh.order == Order::Linear {
