@@ -109,6 +109,11 @@ fn a_profile_reaches_to_the_rim_of_its_side_on_a_line() {
     assert!(short.contains("on side `left` ends 5.000e-1 before"), "{short}");
     let bent = "{ profile = { columns = ['x', 'y', 'velocity.x'], rows = [[0.0, 0.0, 0.0], [0.2, 0.5, 1.0], [0.0, 1.0, 0.0]] } }";
     assert!(refused(bent).contains("off a line"));
+    // Across the side, and in another unit
+    let along = "{ profile = { columns = ['x', 'velocity.x'], rows = [[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]] } }";
+    assert!(refused(along).contains("take another coordinate"));
+    let in_mm = refused(&rows(14, [0.0, 1000.0], |_| 1.0));
+    assert!(in_mm.contains("in the unit of the case"), "{in_mm}");
     // Values at the middles of cells end half a cell before the walls
     let middles = rows(9, [0.05, 0.95], |y| 6.0 * y * (1.0 - y));
     let outcome = run(&channel("planar", &middles));

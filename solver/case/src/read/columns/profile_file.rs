@@ -19,17 +19,18 @@ const OF_PARAVIEW: [(&str, &str); 2] = [("points", ""), ("velocity", "velocity."
 /// # Errors
 /// When a file cannot be read, or holds no profile, or there are rows beside it.
 pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
+    let in_space = root.get("geometry").and_then(TomlNode::text) == Some("spatial");
     let sides = root.table_mut().and_then(|entries| entries.get_mut("boundary"));
     let Some(sides) = sides.and_then(TomlNode::table_mut) else { return Ok(()) };
     for side in sides.values_mut() {
         if let Some(profile) = side.table_mut().and_then(|entries| entries.get_mut("profile")) {
-            resolve_profile(profile)?;
+            resolve_profile(profile, in_space)?;
         }
     }
     Ok(())
 }
 
-fn resolve_profile(profile: &mut TomlNode) -> Result<(), TreeError> {
+fn resolve_profile(profile: &mut TomlNode, in_space: bool) -> Result<(), TreeError> {
     if profile.text().is_some() {
         // The short form
         let file = profile.clone();
@@ -44,7 +45,7 @@ fn resolve_profile(profile: &mut TomlNode) -> Result<(), TreeError> {
             help: "give one of them".to_owned(),
         });
     }
-    let [columns, rows] = read(&file)?;
+    let [columns, rows] = read(&file, in_space)?;
     entries.remove("file");
     entries.insert("columns".to_owned(), columns);
     entries.insert("rows".to_owned(), rows);
@@ -52,7 +53,7 @@ fn resolve_profile(profile: &mut TomlNode) -> Result<(), TreeError> {
 }
 
 /// Columns and rows of a file, without those columns that tell nothing.
-fn read(file: &TomlNode) -> Result<[TomlNode; 2], TreeError> {
+fn read(file: &TomlNode, in_space: bool) -> Result<[TomlNode; 2], TreeError> {
     let source = Arc::new(text_of(file, "CSV")?);
     let mut lines = lines(&source);
     let wrong = |origin, message| TreeError { origin, message, help: WANTED.to_owned() };
@@ -61,6 +62,14 @@ fn read(file: &TomlNode) -> Result<[TomlNode; 2], TreeError> {
     };
     let names: Vec<&str> = header.text.split([',', ';', '\t']).map(str::trim).collect();
     let known: Vec<Option<ProfileColumn>> = names.iter().map(|name| column(name)).collect();
+    let is_misspelt = |name: &&str| {
+        let name = name.trim_matches('"').to_ascii_lowercase();
+        name.starts_with("velocity") && !name.ends_with("magnitude") && column(&name).is_none()
+    };
+    if let Some(name) = names.iter().find(|name| is_misspelt(name)) {
+        let message = format!("{}: `{name}` is no velocity that is known", source.name);
+        return Err(wrong(header.origin, message));
+    }
     let has = |kind: fn(ProfileColumn) -> Option<usize>| {
         known.iter().flatten().any(|one| kind(*one).is_some())
     };
@@ -78,6 +87,9 @@ fn read(file: &TomlNode) -> Result<[TomlNode; 2], TreeError> {
                 format!("this row has {} cells, and the header has {}", row.len(), names.len());
             return Err(wrong(line.origin, message));
         }
+        if is_blank(&row, &known) {
+            continue;
+        }
         let number = |(word, name): (&&str, &&str)| {
             let number = word.parse::<f64>().ok().filter(|number| number.is_finite());
             number.ok_or_else(|| {
@@ -94,11 +106,18 @@ fn read(file: &TomlNode) -> Result<[TomlNode; 2], TreeError> {
         return Err(at_end(&source, message, WANTED.to_owned()));
     }
     let known: Vec<ProfileColumn> = known.into_iter().flatten().collect();
-    let told = telling(&known, &table);
+    let told = telling(&known, &table, in_space);
     let names: Vec<&str> = told.iter().map(|nth| known[*nth].name()).collect();
     let told: Vec<Vec<f64>> =
         table.iter().map(|row| told.iter().map(|nth| row[*nth]).collect()).collect();
     Ok([texts(file, &names), rows(file, &told)])
+}
+
+/// Whether a row has no velocity: lines of other programs, and of this one, go on outside of the fluid.
+fn is_blank(row: &[&str], known: &[Option<ProfileColumn>]) -> bool {
+    let is_velocity = |one: &Option<ProfileColumn>| one.is_some_and(|one| one.velocity().is_some());
+    let mut own = row.iter().zip(known).filter(|(_, known)| is_velocity(known));
+    own.all(|(cell, _)| cell.is_empty() || cell.eq_ignore_ascii_case("nan"))
 }
 
 /// What a name of a file means, if it is known.
@@ -114,19 +133,13 @@ fn column(name: &str) -> Option<ProfileColumn> {
     })
 }
 
-/// Columns without coordinates that are the same, and velocities that are zero, all over, where others are left: a file
-/// of another program has three of each in the plane, too.
-fn telling(columns: &[ProfileColumn], table: &[Vec<f64>]) -> Vec<usize> {
+/// Columns but for those of z, where they are the same all over and the case has no z: other programs write three of each
+/// in the plane, too.
+fn telling(columns: &[ProfileColumn], table: &[Vec<f64>], in_space: bool) -> Vec<usize> {
     let is_same = |nth: usize| table.iter().all(|row| row[nth] == table[0][nth]);
-    let of = |kind: fn(ProfileColumn) -> Option<usize>, is_left_out: &dyn Fn(usize) -> bool| {
-        let all: Vec<usize> =
-            (0..columns.len()).filter(|nth| kind(columns[*nth]).is_some()).collect();
-        let kept: Vec<usize> = all.iter().copied().filter(|nth| !is_left_out(*nth)).collect();
-        if kept.is_empty() { all[..1].to_vec() } else { kept }
-    };
-    let mut told = of(ProfileColumn::coordinate, &is_same);
-    told.extend(of(ProfileColumn::velocity, &|nth| is_same(nth) && table[0][nth] == 0.0));
-    told
+    let of_z = [ProfileColumn::Z, ProfileColumn::VelocityZ];
+    let tells = |nth: &usize| in_space || !of_z.contains(&columns[*nth]) || !is_same(*nth);
+    (0..columns.len()).filter(tells).collect()
 }
 
 #[cfg(test)]
@@ -167,16 +180,20 @@ time.steady = {{}}
     #[test]
     fn columns_of_files_of_several_programs_are_known() {
         use ProfileColumn::{VelocityX, Y};
-        let wanted = vec![vec![0.0, 0.0], vec![0.5, 1.5], vec![1.0, 0.0]];
         for csv in [
             "y,velocity.x\n0,0\n0.5,1.5\n1,0\n",
             "# measured\nY; velocity.X\n0;0\n0.5;1.5\n1;0",
-            "distance,x,y,velocity.x,velocity.y,speed\n0,0,0,0,0,0\n0.5,0,0.5,1.5,0,1.5\n1,0,1,0,0,0\n",
+            "distance,x,y,velocity.x,velocity.y,speed\n0,0,0,0,0,0\n0.5,0,0.5,1.5,0,1.5\n1,0,1,0,0,0\n1.5,0,1.5,,,\n",
+            "Points_X,Points_Y,velocity_X,velocity_Y,velocity_Magnitude\n0,0,0,0,0\n0,0.5,1.5,0,1.5\n0,1,0,0,0\n0,2,nan,nan,nan\n",
             "\"velocity:0\",\"velocity:1\",\"velocity:2\",\"arc_length\",\"Points:0\",\"Points:1\",\"Points:2\"\n\
              0,0,0,0,0,0,0\n1.5,0,0,0.5,0,0.5,0\n0,0,0,1,0,1,0\n",
         ] {
             let found = read(csv, SHORT).unwrap();
-            assert_eq!((found.columns, found.rows), (vec![Y, VelocityX], wanted.clone()), "{csv}");
+            let of = |what| found.columns.iter().position(|one| *one == what).unwrap();
+            let pair = |row: &Vec<f64>| [row[of(Y)], row[of(VelocityX)]];
+            let rows: Vec<[f64; 2]> = found.rows.iter().map(pair).collect();
+            assert_eq!(rows, [[0.0, 0.0], [0.5, 1.5], [1.0, 0.0]], "{csv}");
+            assert!(!found.columns.contains(&ProfileColumn::Z), "{csv}");
         }
         let long = "{ profile = { file = 'in.csv', factor.ramp.duration = 1.0 } }";
         let found = read("y,velocity.x\n0,0\n1,1\n", long).unwrap_err();
@@ -190,7 +207,8 @@ time.steady = {{}}
             ("y,u\n0,0\n1,1\n", "names no velocity: y, u"),
             ("height,velocity.x\n0,0\n1,1\n", "names no coordinate"),
             ("y,velocity.x\n0,0\n1,1,2\n", "this row has 3 cells"),
-            ("y,velocity.x\n0,0\n1,nan\n", "column `velocity.x` has \"nan\""),
+            ("y,velocity.x,velocity.y\n0,0,0\n1,nan,1\n", "column `velocity.x` has \"nan\""),
+            ("y,velocity.x,velocity.yy\n0,0,0\n1,1,1\n", "`velocity.yy` is no velocity"),
             ("y,velocity.x\n0,0\n", "1 rows of numbers"),
             ("y,velocity.x\n0,0\n1,1\n0,2\n", "rows 1 and 3 of the profile are at one place"),
             ("y,y,velocity.x\n0,0,0\n1,1,1\n", "two columns `y`"),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use alewife_mesh::{BoundaryId, Mesh, Point, Scattered, Shares};
+use alewife_mesh::{BoundaryId, Bounds, Mesh, Point, Scattered, Shares};
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::case::{ColumnAxis, ProfileSpec};
@@ -51,6 +51,13 @@ pub fn profile<const D: usize>(
     let boundary = mesh.boundaries.iter().position(|boundary| boundary.name == side);
     let boundary = boundary.map(BoundaryId::new);
     let spacing = table.places.spacing();
+    let extent = table.places.extent(mesh, boundary);
+    if extent < 0.5 * spacing {
+        return Err(refused(format!(
+            "has places about {spacing:.3e} from each other, and the side is {extent:.3e} long there: take another \
+             coordinate, or write lengths in the unit of the case"
+        )));
+    }
     for facet in mesh.facets.iter().filter(|facet| Some(facet.boundary) == boundary) {
         for node in mesh.facet_vertices(facet) {
             let at = mesh.nodes[node];
@@ -101,7 +108,7 @@ impl Table {
                     spec.rows.iter().map(|row| Point::<2>::new(of(row, &one), of(row, &other)));
                 let triangles = Scattered::new(points.collect());
                 let triangles =
-                    triangles.ok_or("has all its places on one line of a side in space")?;
+                    triangles.ok_or("has all its places on one line of a side in space: give it by one coordinate, if it depends on that alone")?;
                 Places::Plane { axes: [one.axis, other.axis], triangles }
             }
             _ => return Err("is given by no coordinate".to_owned()),
@@ -145,6 +152,18 @@ impl Places {
             }
             Self::Plane { triangles, .. } => triangles.spacing(),
         }
+    }
+
+    /// Length (m) of a side in the coordinates that tell places apart.
+    fn extent<const D: usize>(&self, mesh: &Mesh<D>, side: Option<BoundaryId>) -> f64 {
+        let axes = match self {
+            Self::Line { axis, .. } => [*axis; 2],
+            Self::Plane { axes, .. } => *axes,
+        };
+        let own = mesh.facets.iter().filter(|facet| Some(facet.boundary) == side);
+        let nodes = own.flat_map(|facet| mesh.facet_vertices(facet));
+        let bounds = Bounds::around(nodes.map(|node| &mesh.nodes[node]));
+        axes.map(|axis| bounds.max[axis] - bounds.min[axis]).into_iter().fold(0.0, f64::max)
     }
 
     /// What a place has of those around it.
