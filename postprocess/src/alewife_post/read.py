@@ -195,6 +195,7 @@ class Run:
     @cached_property
     def fields(self) -> list[Frame]:
         """All field files in the order of time."""
+        self.check_flow()
         listing = self.path / "fields.pvd"
         if not listing.exists():
             return []
@@ -218,6 +219,14 @@ class Run:
             return self.fields[-1]
         at = checked.time(time)
         return min(self.fields, key=lambda frame: abs(frame.time - at))
+
+    def check_flow(self) -> None:
+        """ValueError where there is no flow, but a soft body alone."""
+        if "soft" in self.case:
+            raise ValueError(
+                f"{self.path} is a run of a soft case, which has no flow to draw: "
+                "open its fields.pvd in ParaView; alewife-post plot has its series"
+            )
 
     def check_time(self, time: float) -> None:
         """ValueError where no field can be meant: before the first one, or after the last one."""

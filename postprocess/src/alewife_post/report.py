@@ -33,6 +33,7 @@ def report(run: Run, time: float | None = None) -> str:
     `time` is that of the scene, the last frame if absent.
     """
     check_run(run)
+    run.check_flow()
     found = summary.summary(run)
     body = [f"<h1>{_text(run.title)}</h1>", _at_a_glance(found)]
     body += _scene(run, time)
