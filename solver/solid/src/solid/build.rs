@@ -9,51 +9,12 @@ use super::SolidError;
 use super::cholesky::Cholesky;
 use super::geometry::CellPoints;
 use super::mass::Mass;
-use super::mesh::{Frame, Order, SolidMesh};
+use super::mesh::{Frame, Order};
 use super::mixed::pressures::Pressures;
 use super::pattern::{Cells, Pattern};
 use super::rigid::ties::Ties;
+use super::spec::{RigidPart, SolidSpec, exists};
 use crate::material::{Lame, Law, Material, MaterialError, Tensor};
-
-/// Fibres that are told one stretch: a muscle, a tendon.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fibres {
-    /// The cells they run through.
-    pub cells: Vec<usize>,
-    /// Their direction in each of these cells; its length does not matter.
-    pub directions: Vec<Vector3<f64>>,
-    /// Stiffness w (Pa).
-    pub stiffness: f64,
-}
-
-/// Cells that move as a rigid body; they may not touch those of another one.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RigidPart {
-    /// The cells.
-    pub cells: Vec<usize>,
-    /// Their density (kg/m3) at rest.
-    pub density: f64,
-}
-
-/// All a solid is made from.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SolidSpec<const D: usize> {
-    /// Its mesh at rest.
-    pub mesh: SolidMesh<D>,
-    /// What the mesh stands for.
-    pub frame: Frame,
-    /// Its materials.
-    pub materials: Vec<Material>,
-    /// The material of each cell; empty where all have the first.
-    pub material_of: Vec<usize>,
-    /// Its active fibres; where the body is rigid they do nothing.
-    pub fibres: Vec<Fibres>,
-    /// Its rigid parts: [`Solid::new`] adds a material with their density for each.
-    pub rigid: Vec<RigidPart>,
-    /// Components of nodes, number D node + axis, that stay where the state at hand has them: all of a node
-    /// for a clamp or a rigid part that is led, those across it for a rail.
-    pub held: Vec<usize>,
-}
 
 /// Fibres in a cell.
 #[derive(Debug, Clone, Copy)]
@@ -78,10 +39,6 @@ pub struct Solid<const D: usize> {
     pub(super) fibres_in: Vec<Vec<FibreIn>>,
     pub(super) pattern: Arc<Pattern>,
     pub(super) cholesky: Arc<Cholesky>,
-}
-
-fn exists(what: &'static str, number: usize, count: usize) -> Result<(), SolidError> {
-    if number < count { Ok(()) } else { Err(SolidError::Missing { what, number, count }) }
 }
 
 impl<const D: usize> Solid<D> {
@@ -114,7 +71,7 @@ impl<const D: usize> Solid<D> {
         let points = CellPoints::new(&spec.mesh, spec.frame)?;
         let mut lame: Vec<Lame> = spec.materials.iter().map(Material::lame).collect();
         let ties = stiffen(&mut spec, &mut lame)?;
-        let held = held_components(&spec)?;
+        let held = spec.held_components()?;
         let pressures = pressures(&spec, &held, &ties)?;
         let cells = Cells::<D> {
             nodes: &spec.mesh.cells,
@@ -126,7 +83,7 @@ impl<const D: usize> Solid<D> {
         if pattern.n_places == 0 {
             return Err(SolidError::AllHeld);
         }
-        let density = |cell: usize| material_of(&spec, cell).density;
+        let density = |cell: usize| spec.material_of_cell(cell).density;
         let mass = Mass::new(&spec.mesh, &points, density, &pattern);
         let cholesky = Cholesky::new(&pattern)?;
         Ok(Self {
@@ -362,26 +319,6 @@ fn pressures<const D: usize>(
         return Err(SolidError::LinearVolume);
     }
     Ok(pressures)
-}
-
-/// The material of a cell of a specification.
-fn material_of<const D: usize>(spec: &SolidSpec<D>, cell: usize) -> &Material {
-    &spec.materials[spec.material_of.get(cell).copied().unwrap_or(0)]
-}
-
-/// Whether each component is held: those named, and of nodes on an axis the distance from it.
-fn held_components<const D: usize>(spec: &SolidSpec<D>) -> Result<Vec<bool>, SolidError> {
-    let mut held = vec![false; D * spec.mesh.nodes.len()];
-    for component in &spec.held {
-        exists("component", *component, held.len())?;
-        held[*component] = true;
-    }
-    if spec.frame == Frame::Axis {
-        for (node, place) in spec.mesh.nodes.iter().enumerate() {
-            held[D * node + 1] |= place[1] == 0.0;
-        }
-    }
-    Ok(held)
 }
 
 /// Fibres by cell.

@@ -15,14 +15,16 @@ mod potential;
 mod quadrature;
 mod rigid;
 mod sensitivity;
+mod spec;
 mod step;
 
 pub use assemble::{StrainHistory, StrainLevel};
-pub use build::{Fibres, RigidPart, Solid, SolidSpec};
+pub use build::Solid;
 pub use cholesky::{Cholesky, Factor};
 pub use error::SolidError;
 pub use mesh::{Frame, Order, SolidFacet, SolidMesh};
 pub use newton::{Minimiser, Minimum};
 pub use potential::{Inertia, Potential, Way};
 pub use sensitivity::{FibreEnergy, Sensitivity};
+pub use spec::{Fibres, RigidPart, SolidSpec};
 pub use step::{Difference, Level, Motion, Scheme, StepInput};

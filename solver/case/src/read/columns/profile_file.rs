@@ -126,9 +126,9 @@ fn column(name: &str) -> Option<ProfileColumn> {
     let own = |wanted: &str| ProfileColumn::ALL.into_iter().find(|one| one.name() == wanted);
     own(&name).or_else(|| {
         OF_PARAVIEW.iter().find_map(|(theirs, ours)| {
-            let axis =
-                name.strip_prefix(theirs)?.strip_prefix([':', '_'])?.parse::<usize>().ok()?;
-            own(&format!("{ours}{}", ["x", "y", "z"].get(axis)?))
+            let axis = name.strip_prefix(theirs)?.strip_prefix([':', '_'])?;
+            let number = ["0", "1", "2"].iter().position(|one| *one == axis);
+            own(&format!("{ours}{}", number.map_or(axis, |number| ["x", "y", "z"][number])))
         })
     })
 }
