@@ -12,7 +12,6 @@ mod modes;
 mod newton;
 mod pattern;
 mod potential;
-mod quadrature;
 mod rigid;
 mod sensitivity;
 mod spec;

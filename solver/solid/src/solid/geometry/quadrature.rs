@@ -2,7 +2,7 @@
 
 use alewife_mesh::{Point, Simplex};
 
-use super::mesh::Order;
+use crate::solid::mesh::Order;
 
 /// A point of a rule, by barycentric coordinates; weights add to one.
 #[derive(Debug, Clone, Copy)]

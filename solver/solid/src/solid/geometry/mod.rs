@@ -1,10 +1,12 @@
 //! `CellPoints`: weights and gradients at the quadrature points of all cells of a solid at rest.
 
+mod quadrature;
+
 use alewife_mesh::Point;
 
+use self::quadrature::{gradients, rule, shapes};
 use super::SolidError;
 use super::mesh::{Frame, Order, SolidMesh};
-use super::quadrature::{gradients, rule, shapes};
 use crate::material::Tensor;
 
 /// Nodes of a cell at most.
