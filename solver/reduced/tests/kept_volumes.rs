@@ -9,6 +9,8 @@ use alewife_reduced::search::Sought as _;
 use alewife_reduced::tier::{Kind, Model, Seeker, Sought, write_fields};
 use tempfile::TempDir;
 
+use crate::given;
+
 /// A bar of two materials that keep their volume, and one that does not.
 const BAR: &str = r#"
 title = "a bar that keeps its volume"
@@ -67,10 +69,7 @@ scale = 0.01
 "#;
 
 fn read(text: &str) -> SoftFile {
-    let folder = TempDir::new().expect("there is room");
-    let path = folder.path().join("case.toml");
-    fs::write(&path, text).expect("it is written");
-    SoftFile::read(&path.display().to_string(), &[]).expect("it is a soft case")
+    given::read(text).expect("it is a soft case")
 }
 
 #[test]

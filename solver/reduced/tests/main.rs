@@ -1,6 +1,7 @@
 //! The soft tier: gradients against differences, cases, searches, and a twin of a recorded swimmer; the reduced tier.
 
 mod cases;
+mod given;
 mod gradients;
 mod kept_volumes;
 mod rigid_parts;

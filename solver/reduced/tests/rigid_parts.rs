@@ -1,10 +1,8 @@
 //! Soft cases with rigid parts: their form, their momentum in vacuum, and what is refused.
 
-use std::fs;
-
-use alewife_case::soft::SoftFile;
 use alewife_reduced::tier::{Model, TierError};
-use tempfile::TempDir;
+
+use crate::given;
 
 /// A free bar with a rigid head and a rigid tail, in vacuum.
 const BAR: &str = r#"
@@ -39,11 +37,7 @@ tolerance = 1e-12
 "#;
 
 fn model(text: &str) -> Result<Model<2>, String> {
-    let folder = TempDir::new().expect("there is room");
-    let path = folder.path().join("case.toml");
-    fs::write(&path, text).expect("it is written");
-    let file =
-        SoftFile::read(&path.display().to_string(), &[]).map_err(|error| error.to_string())?;
+    let file = given::read(text).map_err(|error| error.to_string())?;
     Model::new(&file).map_err(|error| match error {
         TierError::Case(all) => {
             all.first().map_or_else(String::new, |one| format!("{} | {one}", one.key))

@@ -10,6 +10,8 @@ use alewife_reduced::tier::{Model, TierError, write_case};
 use alewife_solid::solid::{Minimiser, Potential, Solid};
 use tempfile::TempDir;
 
+use crate::given;
+
 /// A box of 1 by 2 by 1 with a corner at 0, in mm.
 fn block() -> TriangleMesh {
     let corners =
@@ -79,10 +81,7 @@ frames = 1
 fn model(bytes: &[u8], keys: &str) -> Result<Model<3>, String> {
     let folder = TempDir::new().expect("there is room");
     fs::write(folder.path().join("b.stl"), bytes).expect("it is written");
-    let path = folder.path().join("case.toml");
-    fs::write(&path, case(keys)).expect("it is written");
-    let file =
-        SoftFile::read(&path.display().to_string(), &[]).map_err(|error| error.to_string())?;
+    let file = given::read_in(&folder, &case(keys)).map_err(|error| error.to_string())?;
     let made = Model::<3>::new(&file).map_err(|error| match error {
         TierError::Case(all) => all.iter().fold(String::new(), |mut text, one| {
             let _ = write!(text, "{} | {one}", one.key);
