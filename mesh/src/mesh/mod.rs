@@ -51,6 +51,12 @@ impl<const D: usize> Mesh<D> {
         Self { nodes, topology: Arc::new(topology) }
     }
 
+    /// The boundary of a name; `None` where there is none.
+    #[must_use]
+    pub fn boundary_named(&self, name: &str) -> Option<BoundaryId> {
+        self.boundaries.iter().position(|boundary| boundary.name == name).map(BoundaryId::new)
+    }
+
     /// The same cells with their nodes elsewhere (m), as many as here.
     #[must_use]
     pub fn with_nodes(&self, nodes: Vec<Point<D>>) -> Self {

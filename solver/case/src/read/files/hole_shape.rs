@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use alewife_mesh::spatial::{Imported, SolidHole};
-use alewife_mesh::{Boundary, BoundaryId};
 
 use crate::spec::body::given::hole::HoleInFrame;
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
@@ -112,17 +111,15 @@ fn found(file: &MeshFile, side: &str) -> Result<Found, Refused> {
             .to_owned(),
     }
     };
-    let place = |names: &[Boundary]| names.iter().position(|boundary| boundary.name == side);
     if let Some(mesh) = file.planar() {
-        let boundary = place(&mesh.boundaries).map(BoundaryId::new);
-        let hole = boundary.and_then(|boundary| mesh.hole(boundary));
+        let hole = mesh.boundary_named(side).and_then(|boundary| mesh.hole(boundary));
         let hole = hole.ok_or_else(|| no_hole(String::new()))?;
         let size = hole.moments.measure.sqrt();
         let center = hole.moments.centroid.as_slice().to_vec();
         return Ok(Found { hole: HoleInFrame::planar(&hole), center, size });
     }
     let mesh = file.spatial().map(Imported::mesh);
-    let boundary = mesh.and_then(|mesh| Some((mesh, BoundaryId::new(place(&mesh.boundaries)?))));
+    let boundary = mesh.and_then(|mesh| Some((mesh, mesh.boundary_named(side)?)));
     let (mesh, boundary) = boundary.ok_or_else(|| no_hole(String::new()))?;
     let SolidHole { solid, center } =
         SolidHole::new(mesh, boundary).map_err(|fault| no_hole(format!(": {fault}")))?;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use alewife_mesh::spatial::Imported;
-use alewife_mesh::{BoundaryId, Mesh, SidePair, SideShape, Unpaired};
+use alewife_mesh::{Mesh, SidePair, SideShape, Unpaired};
 use serde::{Deserialize, Serialize};
 
 use super::contents::{Contents, GivenMesh, NamedSide};
@@ -69,12 +69,9 @@ pub(crate) struct UnpairedSides {
 
 /// Where pairs of sides are among those of a mesh.
 fn numbered<const D: usize>(mesh: &Mesh<D>, pairs: &[[String; 2]]) -> Vec<SidePair> {
-    let number = |name: &String| {
-        let place = mesh.boundaries.iter().position(|boundary| boundary.name == *name);
-        place.map(BoundaryId::new)
-    };
     let pair = |[original, copy]: &[String; 2]| {
-        Some(SidePair { original: number(original)?, copy: number(copy)? })
+        let [original, copy] = [mesh.boundary_named(original)?, mesh.boundary_named(copy)?];
+        Some(SidePair { original, copy })
     };
     pairs.iter().filter_map(pair).collect()
 }

@@ -1,7 +1,5 @@
 //! The quantities of sides: loads of the fluid, flux, pressure.
 
-use alewife_mesh::BoundaryId;
-
 use super::value::Value;
 use crate::body::Wrench;
 use crate::case::{Model, SideQuantity, reports_sides};
@@ -38,8 +36,7 @@ pub(super) fn measure_sides<const D: usize>(
     let stress = work.system.surface_stress(problem, &state.mesh, &state.now);
     let frame_velocity = problem.frame_velocity(&state.now.twists);
     let of_side = |name: &String| {
-        let found = state.mesh.boundaries.iter().position(|boundary| boundary.name == *name);
-        let Some(boundary) = found.map(BoundaryId::new) else {
+        let Some(boundary) = state.mesh.boundary_named(name) else {
             return SideMeasurement::default();
         };
         let load = loads.sides.get(boundary.index()).copied().unwrap_or_default();

@@ -36,8 +36,7 @@ pub fn developed<const D: usize>(
     amount: Amount,
 ) -> Result<VelocityProfile<D>, RunError> {
     let refused = |what: &str| RunError::Unsupported(format!("side `{side}` {what}"));
-    let boundary = mesh.boundaries.iter().position(|boundary| boundary.name == side);
-    let boundary = boundary.map(BoundaryId::new).ok_or_else(|| refused("has no facets"))?;
+    let boundary = mesh.boundary_named(side).ok_or_else(|| refused("has no facets"))?;
     let shape = mesh.side_shape(boundary);
     if !shape.is_flat {
         return Err(refused("is not flat, and a developed flow is one through a flat side"));
