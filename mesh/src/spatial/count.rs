@@ -46,6 +46,11 @@ pub fn estimate_cells_inside(
     limit: f64,
 ) -> Result<f64, MeshError> {
     sizing.check(&region.sides().iter().map(String::as_str).collect::<Vec<_>>())?;
+    // Far too many are seen without a count: a cell is smaller than the cube over its edge
+    let least = region.volume() / sizing.size.powi(3);
+    if least > limit {
+        return Ok(least);
+    }
     let sizes = SizeField::of(region.geometry(sizing), sizing);
     let corners = sizes.geometry().corners;
     Ok(Count { sizes: &sizes, growth: sizing.growth, limit }.within(corners))

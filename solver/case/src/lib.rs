@@ -73,7 +73,7 @@ pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, 
 pub use spec::fluid::{FlowModel, Fluid};
 pub use spec::formula::{Definitions, Expression, Formula, FormulaError, ParsedFormula};
 pub use spec::given_mesh::mesh_file::MeshFile;
-pub use spec::given_mesh::region_mesh::RegionFault;
+pub use spec::given_mesh::region_mesh::{RegionFault, unit_hint};
 pub use spec::given_mesh::region_spec::{NamedSolid, RegionSpec, SidePart};
 pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};

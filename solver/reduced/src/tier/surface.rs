@@ -2,7 +2,7 @@
 
 use alewife_case::soft::SoftFile;
 use alewife_case::soft::solid::SoftSolid;
-use alewife_case::{Diagnostic, SurfaceCenter, SurfaceShape};
+use alewife_case::{Diagnostic, SurfaceCenter, SurfaceShape, unit_hint};
 use alewife_mesh::spatial::{
     Region, SurfaceFault, TriangleMesh, estimate_cells_inside, generate_inside,
 };
@@ -13,9 +13,6 @@ const MOST_CELLS: f64 = 1e6;
 
 /// Layers of cells wanted across a thin part: quadratic ones bend with one.
 const LAYERS: f64 = 1.0;
-
-/// Length of a surface over the size of its cells from which on its unit of length is asked for.
-const MUCH_LARGER: f64 = 1000.0;
 
 const KEY: &str = "solid.0.shape.surface.data";
 
@@ -47,24 +44,11 @@ pub(super) fn inside_of_surface(
         let help = "take a smaller solid.0.size, or round edges that are too sharp";
         file.error(KEY, message, help)
     };
-    // Far too many are seen without a count: a cell is smaller than the cube over its edge
-    let least = region.volume() / size.powi(3);
-    let n_cells = if least > MOST_CELLS {
-        least
-    } else {
-        estimate_cells_inside(&region, &sizing, MOST_CELLS).map_err(of_mesh)?
-    };
-    if n_cells > MOST_CELLS {
+    if estimate_cells_inside(&region, &sizing, MOST_CELLS).map_err(of_mesh)? > MOST_CELLS {
         let message =
             format!("the inside of the surface would have more than {MOST_CELLS:e} cells");
-        let mut help = "write a larger size".to_owned();
-        if extent > MUCH_LARGER * size {
-            help += &format!(
-                "; the surface is about {extent:.3e} long and the cells {size:.3e}: where lengths of its file are \
-                 in another unit than the case, such as mm, write scale = {:?}",
-                surface.scale * 1e-3
-            );
-        }
+        let help = "write a larger size".to_owned();
+        let help = help + &unit_hint(&region, "the cells", size, surface.scale);
         return Err(file.error("solid.0.size", message, &help));
     }
     generate_inside(&region, &sizing).map_err(of_mesh)

@@ -14,6 +14,21 @@ const MOST_CELLS: f64 = 5e6;
 /// cells than any other one.
 const MUCH_LARGER: f64 = 1000.0;
 
+/// What else may be wrong with a region that is far larger than the size of its cells (m), called `name`: lengths of its
+/// file were multiplied by `scale`.
+#[must_use]
+pub fn unit_hint(region: &Region, name: &str, size: f64, scale: f64) -> String {
+    let length = region.triangles().extent();
+    if length < MUCH_LARGER * size {
+        return String::new();
+    }
+    format!(
+        "; the surface is about {length:.3e} long and {name} {size:.3e}: where lengths of its file are in another unit \
+         than the case, such as mm, write scale = {:?}",
+        scale * 1e-3
+    )
+}
+
 /// Why there is no mesh inside a surface.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RegionFault {
@@ -94,16 +109,7 @@ impl RegionMesh {
     }
 
     fn too_many_cells(&self) -> RegionFault {
-        let (length, size) = (self.region.triangles().extent(), self.sizing.size);
-        let unit = if length < MUCH_LARGER * size {
-            String::new()
-        } else {
-            format!(
-                "; the surface is about {length:.3e} long and mesh.size {size:.3e}: where lengths of its file are in \
-                 another unit than the case, such as mm, write scale = {:?}",
-                self.scale * 1e-3
-            )
-        };
+        let unit = unit_hint(&self.region, "mesh.size", self.sizing.size, self.scale);
         let message = format!(
             "the inside of the surface would have more than {MOST_CELLS:e} cells, by sizes and by how its wall bends \
              and narrows"
