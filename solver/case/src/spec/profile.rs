@@ -1,5 +1,7 @@
 //! `ProfileSpec`: the velocity on a side by numbers at places of it.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::time_function::TimeFunction;
@@ -94,6 +96,17 @@ impl ProfileSpec {
     fn of(&self, kind: fn(ProfileColumn) -> Option<usize>) -> Vec<ColumnAxis> {
         let all = self.columns.iter().enumerate();
         all.filter_map(|(column, what)| Some(ColumnAxis { column, axis: kind(*what)? })).collect()
+    }
+
+    /// Numbers, from 1, of two rows that are at one place by these coordinates, of rows that have them all.
+    #[must_use]
+    pub fn rows_at_one_place(&self, coordinates: &[ColumnAxis]) -> Option<[usize; 2]> {
+        let mut places: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
+        self.rows.iter().zip(1..).find_map(|(row, number)| {
+            // Zeros of both signs are one place
+            let place = coordinates.iter().map(|one| (row[one.column] + 0.0).to_bits());
+            places.insert(place.collect(), number).map(|before| [before, number])
+        })
     }
 
     /// The largest speed of a row (m/s).

@@ -1,7 +1,5 @@
 //! Problems of flows that are given on a side, each by itself: developed ones, and numbers at places.
 
-use std::collections::BTreeMap;
-
 use crate::rules::Findings;
 use crate::{BoundaryCondition, ProfileColumn, ProfileSpec};
 
@@ -70,7 +68,6 @@ fn check_rows(findings: &mut Findings<'_>, key: &str, profile: &ProfileSpec) {
         let message = format!("the profile has {} rows", profile.rows.len());
         findings.error(key, message, &format!("it takes {least} places or more: {WANTED}"));
     }
-    let mut places: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
     for (nth, row) in profile.rows.iter().enumerate() {
         let (number, n) = (nth + 1, profile.columns.len());
         if row.len() != n {
@@ -83,12 +80,9 @@ fn check_rows(findings: &mut Findings<'_>, key: &str, profile: &ProfileSpec) {
             findings.error(key, message, "leave the row out where nothing is known");
             return;
         }
-        // Zeros of both signs are one place
-        let place = coordinates.iter().map(|one| (row[one.column] + 0.0).to_bits()).collect();
-        if let Some(before) = places.insert(place, number) {
-            let message = format!("rows {before} and {number} of the profile are at one place");
-            findings.error(key, message, "leave one of them out");
-            return;
-        }
+    }
+    if let Some([before, number]) = profile.rows_at_one_place(&coordinates) {
+        let message = format!("rows {before} and {number} of the profile are at one place");
+        findings.error(key, message, "leave one of them out");
     }
 }

@@ -1,7 +1,5 @@
 //! The velocity on a side by numbers at places of it.
 
-use std::collections::BTreeMap;
-
 use alewife_mesh::{BoundaryId, Bounds, Mesh, Point, Scattered, Shares};
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -48,8 +46,7 @@ pub fn profile<const D: usize>(
     let refused =
         |what: String| RunError::Unsupported(format!("the profile on side `{side}` {what}"));
     let table = Table::new::<D>(spec).map_err(refused)?;
-    let boundary = mesh.boundaries.iter().position(|boundary| boundary.name == side);
-    let boundary = boundary.map(BoundaryId::new);
+    let boundary = mesh.boundary_named(side);
     let spacing = table.places.spacing();
     let extent = table.places.extent(mesh, boundary);
     if extent < 0.5 * spacing {
@@ -88,13 +85,9 @@ impl Table {
             coordinates.remove(across(spec, &coordinates)?);
         }
         let of = |row: &[f64], one: &ColumnAxis| row[one.column];
-        let mut known = BTreeMap::new();
-        for (nth, row) in spec.rows.iter().enumerate() {
-            // Zeros of both signs are one place
-            let place = coordinates.iter().map(|one| (of(row, one) + 0.0).to_bits());
-            if let Some(before) = known.insert(place.collect::<Vec<u64>>(), nth + 1) {
-                return Err(format!("has its rows {before} and {} at one place", nth + 1));
-            }
+        // Those that one coordinate less has made the same
+        if let Some([before, row]) = spec.rows_at_one_place(&coordinates) {
+            return Err(format!("has its rows {before} and {row} at one place"));
         }
         let places = match coordinates[..] {
             [along] => {
