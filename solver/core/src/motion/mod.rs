@@ -24,6 +24,6 @@ pub use present_gaps::PresentGaps;
 pub use remesh::{Fresh, Limits, Reason, needs_remesh};
 pub use replace_mesh::replace_mesh;
 pub use rigid::RigidMove;
-pub use scene::{Meshed, MostCells, PosesByShift, RemeshError, RestPlace, Scene};
+pub use scene::{Meshed, MostCells, PosesByShift, RemeshError, RestPlace, Scene, UNCERTAIN};
 pub use stiffness::{MotionKind, Stiffening};
 pub use transfer::{Landing, Transfer, TransferReport};

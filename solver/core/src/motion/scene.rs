@@ -79,7 +79,7 @@ pub struct RestPlace {
 }
 
 /// Part by which an estimate of cells may be too high.
-const UNCERTAIN: f64 = 1.4;
+pub const UNCERTAIN: f64 = 1.4;
 
 /// The most cells that a mesh may have.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -12,6 +12,7 @@ use crate::coupling::{
     RestPlaces, RigidBodyEquations, Solution, SurfaceLoads, impose_boundary_values,
     memory_estimate,
 };
+use crate::motion::UNCERTAIN;
 use crate::state::InitialLevels;
 use crate::step::{FlowError, SteadyFlow, SteadyTask, solve_steady};
 
@@ -158,9 +159,6 @@ const GIGABYTE: f64 = 1e9;
 /// Unknowns over cells of a large mesh, planar or spatial: velocities at vertices and edges, pressures
 /// at vertices.
 const DOFS_OF_CELL: f64 = 4.5;
-
-/// Part by which an estimate of cells may be too high.
-const UNCERTAIN: f64 = 1.4;
 
 /// Refuses a mesh whose system would not fit into the memory that is free, where the system tells.
 pub(super) fn check_memory<const D: usize>(mesh: &Mesh<D>) -> Result<(), RunError> {

@@ -3,7 +3,7 @@
 use crate::soft::SoftBody;
 use alewife_case::Diagnostic;
 use alewife_case::soft::SoftFile;
-use alewife_mesh::Point;
+use alewife_mesh::{Bounds, Point};
 use alewife_solid::solid::SolidMesh;
 
 /// The nodes of the markers of a case.
@@ -22,7 +22,7 @@ pub(super) fn markers<const D: usize>(
     for (index, marker) in file.case.marker.iter().enumerate() {
         let node = nearest(body, &marker.at);
         nodes.push(node);
-        let distance = distance(&mesh.nodes[node], &marker.at);
+        let distance = squared_distance(&mesh.nodes[node], &marker.at).sqrt();
         if distance > widest {
             let message = format!(
                 "\"{}\" is {distance:.3e} from the nearest node of the solid, farther than its widest cell, {widest:.3e}",
@@ -37,12 +37,9 @@ pub(super) fn markers<const D: usize>(
 
 /// Where markers may be, in words.
 fn reach<const D: usize>(mesh: &SolidMesh<D>) -> String {
+    let Bounds { min, max } = Bounds::around(&mesh.nodes);
     let along = |axis: usize| {
-        let values = mesh.nodes.iter().map(move |node| node[axis]);
-        let start = [f64::INFINITY, f64::NEG_INFINITY];
-        let [least, most] =
-            values.fold(start, |[least, most], value| [least.min(value), most.max(value)]);
-        format!("{} from {least:.4} to {most:.4}", ["x", "y", "z"][axis])
+        format!("{} from {:.4} to {:.4}", ["x", "y", "z"][axis], min[axis], max[axis])
     };
     let all: Vec<String> = (0..D).map(along).collect();
     format!("give a place on the solid at rest (m): {}", all.join(", "))
@@ -56,15 +53,14 @@ fn width<const D: usize>(mesh: &SolidMesh<D>, cell: &[usize]) -> f64 {
     cell.iter().map(to_others).fold(0.0, f64::max)
 }
 
-/// The distance (m) of a node from a place.
-fn distance<const D: usize>(node: &Point<D>, at: &[f64]) -> f64 {
-    node.iter().zip(at).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt()
+/// Square of the distance of a node from a place (m2).
+fn squared_distance<const D: usize>(node: &Point<D>, at: &[f64]) -> f64 {
+    node.iter().zip(at).map(|(x, y)| (x - y) * (x - y)).sum()
 }
 
 /// The node nearest to a point.
 fn nearest<const D: usize>(body: &SoftBody<D>, at: &[f64]) -> usize {
     let nodes = &body.solid.spec().mesh.nodes;
-    let distance =
-        |node: &usize| -> f64 { nodes[*node].iter().zip(at).map(|(x, y)| (x - y) * (x - y)).sum() };
+    let distance = |node: &usize| squared_distance(&nodes[*node], at);
     (0..nodes.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
 }
