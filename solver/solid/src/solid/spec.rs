@@ -39,7 +39,7 @@ pub struct SolidSpec<const D: usize> {
     pub material_of: Vec<usize>,
     /// Its active fibres; where the body is rigid they do nothing.
     pub fibres: Vec<Fibres>,
-    /// Its rigid parts: [`Solid::new`] adds a material with their density for each.
+    /// Its rigid parts: [`Solid::new`](super::Solid::new) adds a material with their density for each.
     pub rigid: Vec<RigidPart>,
     /// Components of nodes, number D node + axis, that stay where the state at hand has them: all of a node
     /// for a clamp or a rigid part that is led, those across it for a rail.
