@@ -6,14 +6,18 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let cases = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("../../cases");
-    println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-changed={}", cases.display());
-
+    let package = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
+    // A link to the cases, by which they are part of a published package. Where links are not checked out,
+    // the cases themselves.
+    let link = package.join("cases");
+    let cases = if link.is_dir() { link } else { package.join("../../cases") };
     if !cases.is_dir() {
         // Else the program would have no shipped case
         return Err(format!("{} is missing: a part of the sources", cases.display()).into());
     }
+    let cases = cases.canonicalize()?;
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed={}", cases.display());
     let mut folders: Vec<PathBuf> = Vec::new();
     for entry in fs::read_dir(&cases)? {
         folders.push(entry?.path());
