@@ -1,5 +1,6 @@
 //! Fluid and bodies in one system: loads, free motion, reciprocity, energy, frames, threads.
 
+mod backflow;
 mod blow_up;
 mod driven_sides;
 mod failure;

@@ -78,7 +78,7 @@ impl TimeStep {
         let shapes = BodyShapes::at(&problem.bodies, 0.0).expect("no body deforms");
         let constraints =
             system.constraints(&problem, &mesh, BodiesAt { poses: &poses, shapes: &shapes });
-        let sides = problem.do_nothing_sides();
+        let sides = problem.open_sides();
         let assembly =
             Assembly::new(&mesh, system.layout, &constraints, problem.metric, &sides, None);
         let maps = assembly.maps(&constraints, &[]);

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::formula::Formula;
 use super::profile::ProfileSpec;
-use super::time_function::TimeFunction;
+use super::time_function::{TimeFunction, is_zero};
 #[cfg(test)]
-use crate::spec::number::{FormulaPerDimension, NonZero, PerDimension, Positive};
+use crate::spec::number::{FormulaPerDimension, NonZero, PerDimension, Positive, UpToOne};
 use crate::{MeshFile, RegionSpec};
 
 /// Dimension and symmetry of the problem.
@@ -139,6 +139,11 @@ pub enum BoundaryCondition {
         /// Factor in time.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         factor: Option<TimeFunction>,
+        /// Part beta of the momentum of fluid that enters here which the side takes (1): the traction rho beta min(u . n, 0) u
+        /// beside its own. At 0.5 fluid enters without kinetic energy, and the pressure is the total one there.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        #[cfg_attr(test, schemars(with = "UpToOne"))]
+        backflow: f64,
     },
     /// Open, with a given traction sigma n, of which `traction-free` is that of 0.
     Traction {
@@ -148,6 +153,11 @@ pub enum BoundaryCondition {
         /// Factor in time.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         factor: Option<TimeFunction>,
+        /// Part beta of the momentum of fluid that enters here which the side takes (1): the traction rho beta min(u . n, 0) u
+        /// beside its own. At 0.5 fluid enters without kinetic energy, and the pressure is the total one there.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        #[cfg_attr(test, schemars(with = "UpToOne"))]
+        backflow: f64,
     },
     /// A given velocity on the side.
     Velocity {

@@ -63,9 +63,9 @@ fn one() -> f64 {
     1.0
 }
 
-/// Whether a ramp is not written.
+/// Whether a number that is zero where it is absent need not be written.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
-fn is_zero(number: &f64) -> bool {
+pub(super) fn is_zero(number: &f64) -> bool {
     *number == 0.0
 }
 

@@ -11,7 +11,7 @@ use alewife_mesh::{CellId, Mesh};
 use rayon::prelude::*;
 
 use super::kernel::{CellInput, CellKernel, LocalLayout};
-use super::open_side::OpenSides;
+use super::open_side::{OpenSide, OpenSides};
 use super::parallel::for_each_cell;
 use super::taylor_hood::quadratic_kernel;
 use super::terms::{Convection, Fields, FlowTerms};
@@ -34,15 +34,15 @@ pub struct Assembly<const D: usize> {
 impl<const D: usize> Assembly<D> {
     /// For a mesh under constraints.
     ///
-    /// `open_boundaries` lists the sides with the do-nothing condition; `frame` is the body whose
-    /// velocity is an unknown of every cell, if any.
+    /// `open` lists the sides with terms of their own; `frame` is the body whose velocity is an unknown of every cell, if
+    /// any.
     #[must_use]
     pub fn new(
         mesh: &Mesh<D>,
         layout: DofLayout<D>,
         constraints: &AffineConstraints,
         metric: Metric,
-        open_boundaries: &[usize],
+        open: &[OpenSide],
         frame: Option<usize>,
     ) -> Self {
         let tables = Tables::new(metric);
@@ -50,7 +50,7 @@ impl<const D: usize> Assembly<D> {
         let local = kernel.layout();
         let raw = raw_unknowns(mesh, &layout, local, frame);
         let folds = CellFolds::new(local.n_local(), raw, constraints);
-        let open_sides = OpenSides::new(mesh, open_boundaries, metric);
+        let open_sides = OpenSides::new(mesh, open, metric);
         Self { tables, kernel, folds, open_sides, layout }
     }
 
@@ -113,10 +113,10 @@ impl<const D: usize> Assembly<D> {
         let local = self.kernel.layout();
         let n_entries = local.n_local() * local.n_local();
         self.kernel.matrices(input, cells.clone(), stride, matrices);
-        for facet in self.open_sides.of_cells(&cells) {
-            let start = (facet.cell.index() - cells.start) * stride;
+        for at in self.open_sides.of_cells(&cells) {
+            let start = (at.facet.cell.index() - cells.start) * stride;
             let matrix = &mut matrices[start..start + n_entries];
-            self.open_sides.add_to_matrix(facet, input, local, matrix);
+            self.open_sides.add_to_matrix(at, input, local, matrix);
         }
     }
 
@@ -124,10 +124,10 @@ impl<const D: usize> Assembly<D> {
     fn residuals(&self, input: CellInput<'_, D>, cells: Range<usize>, residuals: &mut [f64]) {
         let local = self.kernel.layout();
         self.kernel.residuals(input, cells.clone(), residuals);
-        for facet in self.open_sides.of_cells(&cells) {
-            let start = (facet.cell.index() - cells.start) * local.n_fluid();
+        for at in self.open_sides.of_cells(&cells) {
+            let start = (at.facet.cell.index() - cells.start) * local.n_fluid();
             let residual = &mut residuals[start..start + local.n_fluid()];
-            self.open_sides.add_to_residual(facet, input, local, residual);
+            self.open_sides.add_to_residual(at, input, local, residual);
         }
     }
 }

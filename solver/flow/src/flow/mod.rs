@@ -15,6 +15,7 @@ mod viscosity;
 pub use assemble::{Assembly, assemble, pressure_unknowns, residual, transposed_product};
 pub use local_viscosity::{LocalViscosity, PointViscosity, ViscosityTerm, squared_shear};
 pub use nodal::{nodal_pressure, nodal_vorticity};
+pub use open_side::OpenSide;
 pub use parallel::{for_each_cell, integrate_basis};
 pub use terms::{Convection, Fields, FlowTerms};
 pub use viscosity::{Plateaus, Viscosity, ViscosityAtRate, YieldLaw};

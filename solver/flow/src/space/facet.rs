@@ -4,7 +4,7 @@
 //! t_k = (dx/dX) s_k along its reference edges s_k, the outward normal times the element of area is
 //! t_1 turned clockwise in the plane, and t_1 x t_2 in space.
 
-use alewife_mesh::{Facet, Mesh, Point, Simplex};
+use alewife_mesh::{Facet, Mesh, NodeId, Point, Simplex};
 use nalgebra::SVector;
 
 use super::cell::{CellMap, weighted_sum};
@@ -50,6 +50,14 @@ pub struct FacetPoint<'a, const D: usize> {
     pub normal_ds: Point<D>,
     /// Position (m).
     pub position: Point<D>,
+}
+
+impl<const D: usize> FacetPoint<'_, D> {
+    /// What has these values at the nodes, here; the nodes are those of the cell.
+    #[must_use]
+    pub fn value(&self, nodes: &[NodeId], values: &[Point<D>]) -> Point<D> {
+        nodes.iter().zip(self.phi).map(|(&node, phi)| values[node] * *phi).sum()
+    }
 }
 
 impl<const D: usize> FacetRule<D> {

@@ -74,10 +74,10 @@ fn is_not_zero(formula: &Formula) -> bool {
 fn side_drives(side: &BoundaryCondition) -> bool {
     match side {
         BoundaryCondition::Velocity { value, factor }
-        | BoundaryCondition::Traction { value, factor } => {
+        | BoundaryCondition::Traction { value, factor, .. } => {
             value.iter().any(is_not_zero) && acts(factor.as_ref())
         }
-        BoundaryCondition::Pressure { value, factor } => {
+        BoundaryCondition::Pressure { value, factor, .. } => {
             is_not_zero(value) && acts(factor.as_ref())
         }
         BoundaryCondition::Profile(profile) => {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::given_flow::check_given;
+use super::given_flow::{check_backflow, check_given};
 use super::given_mesh;
 use crate::model::region::{normal_axis, opposite};
 use crate::rules::Findings;
@@ -116,6 +116,7 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
     }
     check_given(findings, key, condition);
     check_factor_of(findings, key, condition);
+    check_backflow(findings, key, condition);
 }
 
 /// The factor in time of a condition, if it has one.

@@ -1,7 +1,7 @@
 //! Problems of flows that are given on a side, each by itself: developed ones, and numbers at places.
 
 use crate::rules::Findings;
-use crate::{BoundaryCondition, ProfileColumn, ProfileSpec};
+use crate::{BoundaryCondition, FlowModel, ProfileColumn, ProfileSpec};
 
 /// What a profile is made of.
 const WANTED: &str = "write a header of coordinates and velocities, such as y,velocity.x, and a row of numbers for each place";
@@ -84,5 +84,26 @@ fn check_rows(findings: &mut Findings<'_>, key: &str, profile: &ProfileSpec) {
     if let Some([before, number]) = profile.rows_at_one_place(&coordinates) {
         let message = format!("rows {before} and {number} of the profile are at one place");
         findings.error(key, message, "leave one of them out");
+    }
+}
+/// Whether what a side takes of fluid that enters is there at all.
+pub(super) fn check_backflow(
+    findings: &mut Findings<'_>,
+    key: &str,
+    condition: &BoundaryCondition,
+) {
+    let (name, backflow) = match condition {
+        BoundaryCondition::Pressure { backflow, .. } => ("pressure", *backflow),
+        BoundaryCondition::Traction { backflow, .. } => ("traction", *backflow),
+        _ => return,
+    };
+    if backflow > 0.0 && findings.case().fluid.model != FlowModel::NavierStokes {
+        findings.error(
+            &format!("{key}.{name}.backflow"),
+            format!(
+                "{backflow} of the momentum of fluid that enters, but nothing convects momentum"
+            ),
+            "leave `backflow` out, or set fluid.model = \"navier-stokes\"",
+        );
     }
 }

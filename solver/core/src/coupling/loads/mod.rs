@@ -22,7 +22,7 @@ pub use self::propulsion::{
     LoadedBodies, MeanMotion, PropulsionPower, group_load, mean_motion, propulsion_power,
 };
 pub use self::side_loads::side_loads;
-pub use self::surface_load::{SideFlow, SurfaceStress};
+pub use self::surface_load::{SideFlow, SidesAt, SurfaceStress};
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::problem::{Problem, Side};
 use crate::body::{Pose, Wrench, on_mesh};

@@ -11,7 +11,7 @@ use alewife_mesh::{BoundaryId, NodeId, Point};
 use super::super::boundaries::BoundaryNode;
 use super::super::problem::{Problem, Side};
 use super::ResidualOnMesh;
-use super::surface_load::{SurfaceStress, Traction};
+use super::surface_load::{SidesAt, SurfaceStress, Traction};
 use crate::body::Wrench;
 
 /// Force of a side on the fluid by node (N).
@@ -24,16 +24,16 @@ struct Share<const D: usize> {
     force: Point<D>,
 }
 
-/// Loads on each boundary that is a side at a time (s), the torque about the origin; none on bodies and periodic sides.
+/// Loads on each boundary that is a side, the torque about the origin; none on bodies and periodic sides.
 #[must_use]
 pub fn side_loads<const D: usize>(
     problem: &Problem<D>,
     flow: &ResidualOnMesh<'_, D>,
     stress: &SurfaceStress<'_, D>,
-    time: f64,
+    when: SidesAt<D>,
 ) -> Vec<Wrench> {
     let mut loads = vec![Wrench::default(); problem.sides.len()];
-    let tractions = tractions(problem, flow, stress, time);
+    let tractions = tractions(problem, flow, stress, when);
     for at in flow.boundaries.nodes().filter(|at| at.body.is_none()) {
         let point = &flow.mesh.nodes[at.node];
         for Share { boundary, force } in shares(problem, &tractions, &at, flow.force_at(at.node)) {
@@ -59,7 +59,7 @@ fn tractions<const D: usize>(
     problem: &Problem<D>,
     flow: &ResidualOnMesh<'_, D>,
     stress: &SurfaceStress<'_, D>,
-    time: f64,
+    when: SidesAt<D>,
 ) -> Vec<NodalForces<D>> {
     let closed = |at: &BoundaryNode| {
         let sides = at.boundaries.iter();
@@ -73,8 +73,8 @@ fn tractions<const D: usize>(
             Some(Side::DoNothing) => {
                 stress.nodal_tractions(boundary, Traction::OfDevelopedFlow, |_| true)
             }
-            Some(side @ (Side::Pressure(_) | Side::Traction(_))) => {
-                stress.given_tractions(boundary, side, time)
+            Some(side @ (Side::Pressure { .. } | Side::Traction { .. })) => {
+                stress.given_tractions(boundary, side, when)
             }
             None | Some(Side::TractionFree | Side::Periodic) => NodalForces::new(),
             Some(Side::Velocity { .. } | Side::Symmetry { .. }) => {

@@ -28,6 +28,17 @@ pub struct SurfaceStress<'a, const D: usize> {
     pub fields: Fields<'a, D>,
 }
 
+/// What tractions of sides depend on beside their place and the flow.
+#[derive(Debug, Clone, Copy)]
+pub struct SidesAt<const D: usize> {
+    /// Time (s).
+    pub time: f64,
+    /// Density of a fluid that convects (kg/m3), else zero.
+    pub density: f64,
+    /// Velocity of the frame (m/s).
+    pub frame_velocity: Point<D>,
+}
+
 /// Which traction is integrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Traction {
@@ -143,16 +154,17 @@ impl<const D: usize> SurfaceStress<'_, D> {
         sums
     }
 
-    /// Integrals over an open side of the traction that it is given at a time (s), with that of a developed flow beside a
-    /// pressure (N).
+    /// Integrals over an open side of the traction that it is given, with that of a developed flow beside a pressure, and
+    /// what it takes of the momentum of fluid that enters (N).
     pub(super) fn given_tractions(
         &self,
         boundary: BoundaryId,
         side: &Side<D>,
-        time: f64,
+        when: SidesAt<D>,
     ) -> BTreeMap<NodeId, Point<D>> {
+        let SidesAt { time, density, frame_velocity } = when;
         let mesh = self.mesh;
-        let mut sums = if matches!(side, Side::Pressure(_)) {
+        let mut sums = if side.is_developed() {
             self.nodal_tractions(boundary, Traction::OfDevelopedFlow, |_| true)
         } else {
             BTreeMap::new()
@@ -165,7 +177,10 @@ impl<const D: usize> SurfaceStress<'_, D> {
                 let area = at.normal_ds.norm();
                 let normal = if area > 0.0 { at.normal_ds / area } else { Point::zeros() };
                 let given = side.given_traction(&at.position, &normal, time);
-                let force = given.unwrap_or_else(Point::zeros) * area;
+                let velocity = at.value(nodes, self.fields.velocity);
+                let influx = (velocity - frame_velocity).dot(&at.normal_ds).min(0.0);
+                let force = given.unwrap_or_else(Point::zeros) * area
+                    + velocity * (density * side.backflow() * influx);
                 for (&node, phi) in nodes.iter().zip(at.phi).filter(|(node, _)| own.contains(node))
                 {
                     *sums.entry(node).or_insert_with(Point::<D>::zeros) += force * *phi;

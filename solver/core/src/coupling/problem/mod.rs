@@ -27,7 +27,7 @@ pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
 pub use side::{PressureProfile, Side, VelocityProfile};
 
 use crate::body::{Mode, Modes, Pose, Twist, on_mesh};
-use crate::flow::{Convection, LocalViscosity, Viscosity, ViscosityTerm};
+use crate::flow::{Convection, LocalViscosity, OpenSide, Viscosity, ViscosityTerm};
 use crate::space::Metric;
 use crate::structure::Held;
 
@@ -218,7 +218,8 @@ impl<const D: usize> Problem<D> {
     /// Whether forces or tractions on the fluid are given.
     #[must_use]
     pub fn has_given_loads(&self) -> bool {
-        let has_traction = |side: &Side<D>| matches!(side, Side::Pressure(_) | Side::Traction(_));
+        let has_traction =
+            |side: &Side<D>| matches!(side, Side::Pressure { .. } | Side::Traction { .. });
         self.force.is_some() || self.sides.iter().flatten().any(has_traction)
     }
 
@@ -264,13 +265,19 @@ impl<const D: usize> Problem<D> {
         })
     }
 
-    /// Boundaries with the do-nothing condition, also those with a pressure beside it.
+    /// Sides with terms of their own in the equations of the fluid.
     #[must_use]
-    pub fn do_nothing_sides(&self) -> Vec<usize> {
-        let is_open =
-            |side: &Option<Side<D>>| matches!(side, Some(Side::DoNothing | Side::Pressure(_)));
-        let boundaries = self.sides.iter().enumerate().filter(|(_, side)| is_open(side));
-        boundaries.map(|(boundary, _)| boundary).collect()
+    pub fn open_sides(&self) -> Vec<OpenSide> {
+        let open = |(boundary, side): (usize, &Option<Side<D>>)| {
+            let side = side.as_ref()?;
+            let (is_developed, backflow) = (side.is_developed(), side.backflow());
+            (is_developed || backflow > 0.0).then_some(OpenSide {
+                boundary,
+                is_developed,
+                backflow,
+            })
+        };
+        self.sides.iter().enumerate().filter_map(open).collect()
     }
 
     /// Velocity of the frame with these velocities of the bodies (m/s); none in the laboratory.

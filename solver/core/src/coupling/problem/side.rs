@@ -22,9 +22,20 @@ pub enum Side<const D: usize> {
     /// sigma n = 0.
     TractionFree,
     /// mu du/dn - p n = -p_0 n with a given pressure p_0.
-    Pressure(PressureProfile<D>),
+    Pressure {
+        /// The pressure.
+        profile: PressureProfile<D>,
+        /// Part beta of the momentum of fluid that enters which is taken (1): rho beta min(u . n, 0) u is added to the
+        /// traction.
+        backflow: f64,
+    },
     /// sigma n as given (Pa).
-    Traction(VelocityProfile<D>),
+    Traction {
+        /// The traction.
+        profile: VelocityProfile<D>,
+        /// As that beside a pressure.
+        backflow: f64,
+    },
     /// No velocity along this coordinate, no traction along the others.
     Symmetry {
         /// 0 for x, 1 for y, 2 for z.
@@ -38,7 +49,10 @@ impl<const D: usize> Side<D> {
     /// Whether the traction is given, so that the side fixes the level of the pressure.
     #[must_use]
     pub fn is_open(&self) -> bool {
-        matches!(self, Self::DoNothing | Self::TractionFree | Self::Pressure(_) | Self::Traction(_))
+        matches!(
+            self,
+            Self::DoNothing | Self::TractionFree | Self::Pressure { .. } | Self::Traction { .. }
+        )
     }
 
     /// The given traction on the fluid (Pa) at a place (m) with a unit normal out of it at a time (s), beside that of a
@@ -51,10 +65,25 @@ impl<const D: usize> Side<D> {
         time: f64,
     ) -> Option<Point<D>> {
         match self {
-            Self::Pressure(pressure) => Some(normal * -pressure(place, time)),
-            Self::Traction(traction) => Some(traction(place, time)),
+            Self::Pressure { profile, .. } => Some(normal * -profile(place, time)),
+            Self::Traction { profile, .. } => Some(profile(place, time)),
             _ => None,
         }
+    }
+
+    /// Part of the momentum of fluid that enters which the side takes (1).
+    #[must_use]
+    pub fn backflow(&self) -> f64 {
+        match self {
+            Self::Pressure { backflow, .. } | Self::Traction { backflow, .. } => *backflow,
+            _ => 0.0,
+        }
+    }
+
+    /// Whether the traction is that of a developed flow, beside a pressure.
+    #[must_use]
+    pub fn is_developed(&self) -> bool {
+        matches!(self, Self::DoNothing | Self::Pressure { .. })
     }
 
     /// Whether fluid and bodies may move along a coordinate as a whole without being held here.
@@ -66,8 +95,8 @@ impl<const D: usize> Side<D> {
             Self::Velocity { .. }
             | Self::DoNothing
             | Self::TractionFree
-            | Self::Pressure(_)
-            | Self::Traction(_) => false,
+            | Self::Pressure { .. }
+            | Self::Traction { .. } => false,
         }
     }
 }

@@ -38,7 +38,7 @@ impl<const D: usize> FluidSystem<D> {
         };
         let mut adjoints: Vec<Vec<f64>> = derivatives.iter().map(right_hand_side).collect();
         let is_symmetric =
-            terms.convection == Convection::None && at.problem.do_nothing_sides().is_empty();
+            terms.convection == Convection::None && at.problem.open_sides().is_empty();
         let solved = self.linear.solve_transposed(&mut adjoints, is_symmetric, timing);
         solved.map_err(|error| self.explain(at, error))?;
         Ok(adjoints)

@@ -31,7 +31,9 @@ use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
 use super::linear_system::{NewSystem, SolverChoice, SystemSolver, saddle_point, system_solver};
-use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, side_loads, surface_loads};
+use super::loads::{
+    ResidualOnMesh, SidesAt, SurfaceLoads, SurfaceStress, side_loads, surface_loads,
+};
 use super::mean_flow::{CellIntegrals, MeanFlowResponse};
 use super::pressure_mean::PressureMean;
 use super::problem::{MeanFlowAt, Problem};
@@ -157,14 +159,8 @@ impl<const D: usize> FluidSystem<D> {
             .constraints(&boundaries, at);
         look()?;
         let frame = problem.frame.filter(|_| unknown_frame);
-        let assembly = Assembly::new(
-            mesh,
-            layout,
-            &constraints,
-            problem.metric,
-            &problem.do_nothing_sides(),
-            frame,
-        );
+        let assembly =
+            Assembly::new(mesh, layout, &constraints, problem.metric, &problem.open_sides(), frame);
         look()?;
         let pressure = PressureMean::new(mesh, assembly.tables());
         let nullspace = TranslationNullspace::new(problem, mesh, assembly.tables());
@@ -275,7 +271,12 @@ impl<const D: usize> FluidSystem<D> {
         let mut loads = surface_loads(problem, poses, &flow);
         if problem.reports_sides {
             let stress = self.surface_stress(problem, mesh, solution);
-            loads.sides = side_loads(problem, &flow, &stress, time);
+            let when = SidesAt {
+                time,
+                density: if problem.has_convection { problem.density } else { 0.0 },
+                frame_velocity: problem.frame_velocity(&solution.twists),
+            };
+            loads.sides = side_loads(problem, &flow, &stress, when);
         }
         if self.cell.is_some() {
             for (body, (loads, twist)) in loads.bodies.iter_mut().zip(&solution.twists).enumerate()

@@ -32,7 +32,7 @@ impl<const D: usize> FluidSystem<D> {
         // A run that is stopped within this step resumes from the last state, whose numbering is the old one
         let before = self.linear.memory();
         self.kept_memory.get_or_insert(before);
-        let sides = problem.do_nothing_sides();
+        let sides = problem.open_sides();
         let (layout, frame) = (self.layout, self.numbering.frame);
         self.assembly = Assembly::new(mesh, layout, constraints, problem.metric, &sides, frame);
         let saddle_point = saddle_point(&layout, constraints, self.modes);

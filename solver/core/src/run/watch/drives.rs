@@ -124,8 +124,8 @@ impl<const D: usize> Simulation<D> {
                     Side::Velocity { is_wall: false, .. }
                         | Side::DoNothing
                         | Side::TractionFree
-                        | Side::Pressure(_)
-                        | Side::Traction(_)
+                        | Side::Pressure { .. }
+                        | Side::Traction { .. }
                 )
             )
         });

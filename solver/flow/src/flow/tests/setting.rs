@@ -70,7 +70,13 @@ pub struct Setting<const D: usize> {
 impl<const D: usize> Setting<D> {
     /// Every side is open, curved ones too.
     pub fn new(mesh: Mesh<D>, metric: Metric, with_frame: bool) -> Self {
-        let sides: Vec<_> = (0..mesh.boundaries.len()).collect();
+        Self::with_backflow(mesh, metric, with_frame, 0.0)
+    }
+
+    /// Every side is open, and takes this part of the momentum of fluid that enters.
+    pub fn with_backflow(mesh: Mesh<D>, metric: Metric, with_frame: bool, backflow: f64) -> Self {
+        let open = |boundary| OpenSide { boundary, is_developed: true, backflow };
+        let sides: Vec<_> = (0..mesh.boundaries.len()).map(open).collect();
         Self::with_open_sides(mesh, metric, with_frame, &sides)
     }
 
@@ -82,7 +88,7 @@ impl<const D: usize> Setting<D> {
         mesh: Mesh<D>,
         metric: Metric,
         with_frame: bool,
-        sides: &[usize],
+        sides: &[OpenSide],
     ) -> Self {
         let layout = DofLayout::new(&mesh, 1, D * (D + 1) / 2);
         let constraints = ConstraintBuilder::new(layout.n_raw()).build();

@@ -13,7 +13,7 @@ use self::section::{Amount, developed};
 use super::formulas::{number, vector};
 
 use crate::case::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, normal_axis};
-use crate::coupling::{Side, VelocityProfile};
+use crate::coupling::{PressureProfile, Side, VelocityProfile};
 use crate::gait::WavingSheet;
 use crate::run::RunError;
 use crate::space::Metric;
@@ -55,17 +55,19 @@ pub(super) fn side<const D: usize>(
         BoundaryCondition::Axis => Side::Symmetry { normal_axis: Metric::RADIAL },
         BoundaryCondition::Symmetry => Side::Symmetry { normal_axis: mirror_axis(case, name)? },
         BoundaryCondition::Velocity { value, factor } => scaled(vector(case, value)?, factor),
-        BoundaryCondition::Pressure { value, factor } => {
+        BoundaryCondition::Pressure { value, factor, backflow } => {
             let (pressure, factor) = (number(case, value)?, factor.clone());
-            Side::Pressure(Box::new(move |place, time| {
+            let profile: PressureProfile<D> = Box::new(move |place, time| {
                 pressure(place, time) * factor_at(factor.as_ref(), time)
-            }))
+            });
+            Side::Pressure { profile, backflow: *backflow }
         }
-        BoundaryCondition::Traction { value, factor } => {
+        BoundaryCondition::Traction { value, factor, backflow } => {
             let (traction, factor) = (vector(case, value)?, factor.clone());
-            Side::Traction(Box::new(move |place, time| {
+            let profile: VelocityProfile<D> = Box::new(move |place, time| {
                 traction(place, time) * factor_at(factor.as_ref(), time)
-            }))
+            });
+            Side::Traction { profile, backflow: *backflow }
         }
         BoundaryCondition::Profile(spec) => scaled(profile(spec, mesh, name)?, &spec.factor),
         BoundaryCondition::Developed { flux, peak, factor } => {
