@@ -1,6 +1,6 @@
 //! The discrete adjoint: exact derivatives of an objective by all parameters of a motion, for the price of one more.
 
-use alewife_solid::material::Principal;
+use alewife_solid::material::Kinematics;
 use alewife_solid::solid::{Difference, Factor, Potential, SolidError, StrainLevel};
 
 use super::SoftError;
@@ -205,7 +205,7 @@ impl<const D: usize> Backward<'_, D> {
         }
         let mut right = self.places[step + 1].clone();
         add(&mut right, a0, &by_velocity);
-        let known = solid.principals(reached);
+        let known = solid.kinematics(reached);
         let z = solid.solve_at(&potential, reached, &known, &right, &mut self.factor)?;
         self.add_parameters(step, &potential, &known, &z)?;
         let slopes = body.load_slopes(&motion.places, &motion.velocities, &z);
@@ -231,7 +231,7 @@ impl<const D: usize> Backward<'_, D> {
         &mut self,
         step: usize,
         potential: &Potential<'_, D>,
-        known: &[Principal],
+        known: &[Kinematics],
         z: &[f64],
     ) -> Result<(), SolidError> {
         let (levels, solid) = (&self.trajectory.levels, &self.body.solid);

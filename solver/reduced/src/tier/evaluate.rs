@@ -70,7 +70,7 @@ where
     pub fn way_and_work(&self, direction: &[f64], motion: &Trajectory) -> WayAndWork {
         let Model { body, plan, .. } = &self.model;
         let way = -body.value(motion, &self.model.travel(direction));
-        WayAndWork { way, work: body.work(plan, motion) }
+        WayAndWork { way, work: Bodies::work(body, plan, motion) }
     }
 
     /// The objective of the model as it is: a loss, or what is made large.
@@ -103,7 +103,7 @@ where
                     made_large(objective, self.way_and_work(direction, motion));
                 // Travel is the way with its sign turned, and what is made small the objective with its
                 body.add_seeds(motion, &self.model.travel(direction), by_way, &mut seeds);
-                body.add_work_seeds(plan, motion, -by_work, &mut seeds);
+                Bodies::add_work_seeds(body, plan, motion, -by_work, &mut seeds);
                 Begun { objective: -value, seeds }
             }
         }

@@ -41,6 +41,18 @@ pub trait SolidOf<const D: usize> {
         motion: &Trajectory,
         seeds: Seeds,
     ) -> Result<Gradient, SoftError>;
+
+    /// Work (J) put into the fibres in a motion, as [`SoftBody::work`] has it.
+    fn work(body: &SoftBody<D>, plan: &Plan, motion: &Trajectory) -> f64;
+
+    /// The same; a multiple of its derivatives is added to those there are.
+    fn add_work_seeds(
+        body: &SoftBody<D>,
+        plan: &Plan,
+        motion: &Trajectory,
+        factor: f64,
+        seeds: &mut Seeds,
+    ) -> f64;
 }
 
 /// Two and three dimensions.
@@ -76,6 +88,20 @@ impl SolidOf<2> for Bodies {
         seeds: Seeds,
     ) -> Result<Gradient, SoftError> {
         body.gradient(plan, motion, seeds, false)
+    }
+
+    fn work(body: &SoftBody<2>, plan: &Plan, motion: &Trajectory) -> f64 {
+        body.work(plan, motion)
+    }
+
+    fn add_work_seeds(
+        body: &SoftBody<2>,
+        plan: &Plan,
+        motion: &Trajectory,
+        factor: f64,
+        seeds: &mut Seeds,
+    ) -> f64 {
+        body.add_work_seeds(plan, motion, factor, seeds)
     }
 }
 
@@ -113,6 +139,20 @@ impl SolidOf<3> for Bodies {
         seeds: Seeds,
     ) -> Result<Gradient, SoftError> {
         body.gradient(plan, motion, seeds, false)
+    }
+
+    fn work(body: &SoftBody<3>, plan: &Plan, motion: &Trajectory) -> f64 {
+        body.work(plan, motion)
+    }
+
+    fn add_work_seeds(
+        body: &SoftBody<3>,
+        plan: &Plan,
+        motion: &Trajectory,
+        factor: f64,
+        seeds: &mut Seeds,
+    ) -> f64 {
+        body.add_work_seeds(plan, motion, factor, seeds)
     }
 }
 

@@ -1,6 +1,8 @@
 //! Elastic laws: energies of the principal stretches, their stresses and tangents, fibres and damping.
 
+mod direct;
 mod fibre;
+mod kinematics;
 mod law;
 mod moduli;
 mod pairs;
@@ -10,7 +12,9 @@ mod tests;
 mod viscous;
 mod volume;
 
+pub use direct::Direct;
 pub use fibre::Fibre;
+pub use kinematics::Kinematics;
 pub use law::{Lame, Law};
 pub use moduli::{Material, MaterialError};
 pub use pairs::Moduli;

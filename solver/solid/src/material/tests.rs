@@ -142,6 +142,42 @@ fn a_pressure_has_the_stress_and_tangent_of_the_volume() {
 }
 
 #[test]
+fn laws_without_a_principal_frame_agree_with_it() {
+    let over = Tensor::new(1.1, 0.3, 0.0, 0.2, 0.9, 0.1, 0.0, 0.2, -0.4);
+    let cases = [
+        (Law::NeoHookean, deformation()),
+        (Law::NeoHookean, Tensor::new(0.5, 0.1, 0.0, -0.1, 0.6, 0.0, 0.0, 0.2, 0.7)),
+        (Law::SaintVenantKirchhoff, deformation()),
+        (Law::SaintVenantKirchhoff, over),
+    ];
+    for (law, at) in cases {
+        let found = Kinematics::of(law, &at).expect("it has a volume");
+        assert!(matches!(found, Kinematics::Direct(_)));
+        let expected = Principal::of(&at).expect("it has a volume");
+        let (one, other) = (found.stress(law, LAME), expected.stress(law, LAME));
+        assert!(
+            (one.energy - other.energy).abs() < 1e-13 && (one.stress - other.stress).norm() < 1e-12
+        );
+        let moduli = found.stress_by_moduli(law).into_iter().zip(expected.stress_by_moduli(law));
+        assert!(moduli.map(|(one, other)| (one - other).norm()).sum::<f64>() < 1e-12);
+        assert!((found.cofactor() - expected.cofactor()).norm() < 1e-13);
+        assert!((found.volume() - expected.volume()).abs() < 1e-14);
+        for curvature in [Curvature::True, Curvature::Positive] {
+            let plain = expected.tangent(law, LAME, curvature);
+            let apart = found.tangent(law, LAME, None, curvature) - plain;
+            assert!(apart.norm() < 1e-12 * plain.norm(), "{law:?} {}", apart.norm());
+            let under = expected.tangent_under(law, LAME, 0.7, curvature);
+            let apart = found.tangent(law, LAME, Some(0.7), curvature) - under;
+            assert!(apart.norm() < 1e-12 * under.norm(), "{law:?} {}", apart.norm());
+        }
+    }
+    let turned_over = Kinematics::of(Law::NeoHookean, &over).expect("it has a volume");
+    assert!(turned_over.stress(Law::NeoHookean, LAME).energy.is_nan());
+    assert!(Kinematics::of(Law::NeoHookean, &Tensor::zeros()).is_none());
+    assert!(Kinematics::of(Law::NeoHookean, &Tensor::from_element(f64::NAN)).is_none());
+}
+
+#[test]
 fn fibres_and_damping_have_the_stress_and_tangent_of_their_energies() {
     let at = deformation();
     let fibre = Fibre { direction: Vector3::new(0.6, 0.0, 0.8), stiffness: 3.0, target: 0.8 };

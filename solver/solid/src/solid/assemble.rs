@@ -6,7 +6,7 @@ use nalgebra::SVector;
 use super::build::Solid;
 use super::geometry::{At, MAX_NODES, MAX_PLACES, MAX_UNKNOWNS};
 use super::rigid::pose::Pose;
-use crate::material::{Curvature, Fibre, Principal, Stress, Tangent, Tensor, Viscous, green};
+use crate::material::{Curvature, Fibre, Kinematics, Law, Stress, Tangent, Tensor, Viscous, green};
 
 /// Green's strain as the backward difference of a step has it from levels before.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,11 +42,11 @@ pub(super) struct Stiffness {
     pub factor: f64,
 }
 
-/// A deformation gradient with its singular values.
+/// A deformation gradient with what the law asks of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Deformed {
     deformation: Tensor,
-    principal: Principal,
+    kinematics: Kinematics,
     pressure: Option<f64>,
 }
 
@@ -55,7 +55,7 @@ pub(super) struct Response<'a, const D: usize> {
     solid: &'a Solid<D>,
     cell: usize,
     deformation: Tensor,
-    principal: Principal,
+    kinematics: Kinematics,
     viscous: Option<Viscous>,
     pressure: Option<f64>,
     controls: Controls<'a>,
@@ -74,8 +74,8 @@ impl<'a, const D: usize> Response<'a, D> {
             stiffness: 2.0 * viscosity * history.rate,
             history: history.strains[number],
         });
-        let Deformed { deformation, principal, pressure } = at;
-        Self { solid, cell, deformation, principal, viscous, pressure, controls }
+        let Deformed { deformation, kinematics, pressure } = at;
+        Self { solid, cell, deformation, kinematics, viscous, pressure, controls }
     }
 
     /// Fibres of the cell.
@@ -95,7 +95,7 @@ impl<'a, const D: usize> Response<'a, D> {
     /// Stresses by the shear modulus and by lambda.
     pub(super) fn stress_by_moduli(&self) -> [Tensor; 2] {
         let material = self.solid.material_of(self.cell);
-        self.principal.stress_by_moduli(self.solid.spec.materials[material].law)
+        self.kinematics.stress_by_moduli(self.solid.spec.materials[material].law)
     }
 
     /// The damping of the point, if it has any.
@@ -108,19 +108,19 @@ impl<'a, const D: usize> Response<'a, D> {
         self.pressure
     }
 
-    /// The singular values of the deformation.
-    pub(super) fn principal(&self) -> &Principal {
-        &self.principal
+    /// What the law asks of the deformation.
+    pub(super) fn kinematics(&self) -> &Kinematics {
+        &self.kinematics
     }
 
     /// Energy and first Piola-Kirchhoff stress of all together.
     pub(super) fn stress(&self) -> Stress {
         let material = self.solid.material_of(self.cell);
         let law = self.solid.spec.materials[material].law;
-        let mut stress = self.principal.stress(law, self.solid.lame[material]);
+        let mut stress = self.kinematics.stress(law, self.solid.lame[material]);
         if let Some(pressure) = self.pressure {
-            stress.energy -= pressure * (self.principal.volume() - 1.0);
-            stress.stress -= self.principal.cofactor() * pressure;
+            stress.energy -= pressure * (self.kinematics.volume() - 1.0);
+            stress.stress -= self.kinematics.cofactor() * pressure;
         }
         for (_, fibre) in self.fibres() {
             stress.energy += fibre.energy(&self.deformation);
@@ -138,10 +138,7 @@ impl<'a, const D: usize> Response<'a, D> {
         let material = self.solid.material_of(self.cell);
         let law = self.solid.spec.materials[material].law;
         let lame = self.solid.lame[material];
-        let mut tangent = match self.pressure {
-            Some(pressure) => self.principal.tangent_under(law, lame, pressure, curvature),
-            None => self.principal.tangent(law, lame, curvature),
-        };
+        let mut tangent = self.kinematics.tangent(law, lame, self.pressure, curvature);
         for (_, fibre) in self.fibres() {
             tangent += fibre.tangent(&self.deformation, curvature);
         }
@@ -164,61 +161,47 @@ impl<const D: usize> Solid<D> {
         self.each_known_point(places, controls, &[], visit)
     }
 
-    /// The same with singular values that are known, of all points or of none.
+    /// The same with what laws ask of deformations known, of all points or of none.
     pub(super) fn each_known_point<'a>(
         &'a self,
         places: &[f64],
         controls: Controls<'a>,
-        known: &[Principal],
+        known: &[Kinematics],
         mut visit: impl FnMut(usize, At<'a, D>, Response<'a, D>),
     ) -> bool {
         let mut local = [Point::<D>::zeros(); MAX_NODES];
         for cell in 0..self.spec.mesh.n_cells() {
             let local = self.gather(cell, places, &mut local);
+            let law = self.law_of(cell);
             for k in 0..self.points.n_points {
-                let deformation = self.points.at(cell, k).deformation(local);
+                let at = self.points.at(cell, k);
+                let deformation = at.deformation(local);
                 let number = cell * self.points.n_points + k;
-                let principal = known.get(number).copied();
-                let Some(principal) = principal.or_else(|| Principal::of(&deformation)) else {
+                let found = known.get(number).copied();
+                let Some(kinematics) = found.or_else(|| Kinematics::of(law, &deformation)) else {
                     return false;
                 };
-                let at = self.points.at(cell, k);
                 let pressure = self.pressures.at(cell, at.shares, places);
-                let deformed = Deformed { deformation, principal, pressure };
+                let deformed = Deformed { deformation, kinematics, pressure };
                 visit(cell, at, Response::new(self, cell, number, controls, deformed));
             }
         }
         true
     }
 
-    /// Singular values of the deformations at all points of a state; none at all where a cell is turned over.
+    /// What laws ask of the deformations at all points of a state; none at all where a cell has no volume.
     #[must_use]
-    pub fn principals(&self, places: &[f64]) -> Vec<Principal> {
-        let all: Option<Vec<_>> = self.deformations(places).iter().map(Principal::of).collect();
-        all.unwrap_or_default()
-    }
-
-    /// The mean volume ratio of each cell in a state.
-    #[must_use]
-    pub fn volume_ratios(&self, places: &[f64]) -> Vec<f64> {
-        let n = self.points.n_points;
+    pub fn kinematics(&self, places: &[f64]) -> Vec<Kinematics> {
         let deformations = self.deformations(places);
-        let cells = deformations.chunks_exact(n).zip(self.points.weights.chunks_exact(n));
-        cells
-            .map(|(deformations, weights)| {
-                let pairs = deformations.iter().zip(weights);
-                let sum: f64 = pairs.map(|(f, weight)| f.determinant() * weight).sum();
-                sum / weights.iter().sum::<f64>()
-            })
-            .collect()
+        let all = deformations.iter().enumerate().map(|(number, deformation)| {
+            Kinematics::of(self.law_of(number / self.points.n_points), deformation)
+        });
+        all.collect::<Option<Vec<_>>>().unwrap_or_default()
     }
 
-    /// The mean pressure (Pa) of each cell in a state; 0 where it can be compressed.
-    #[must_use]
-    pub fn pressures(&self, state: &[f64]) -> Vec<f64> {
-        let share = [1.0 / (D as f64 + 1.0); 4];
-        let mean = |cell| self.pressures.at(cell, &share, state).unwrap_or(0.0);
-        (0..self.spec.mesh.n_cells()).map(mean).collect()
+    /// The law of a cell.
+    fn law_of(&self, cell: usize) -> Law {
+        self.spec.materials[self.material_of(cell)].law
     }
 
     /// The cells turned over in a state, if any: the first of them.
@@ -240,14 +223,14 @@ impl<const D: usize> Solid<D> {
     }
 
     /// Adds a multiple of the inner forces of a state, and returns its energy; none where a cell is turned over.
-    /// Singular values found on the way go to `known`.
+    /// What laws ask of deformations, found on the way, goes to `known`.
     pub(super) fn add_forces(
         &self,
         places: &[f64],
         controls: Controls<'_>,
         factor: f64,
         forces: &mut [f64],
-        known: &mut Vec<Principal>,
+        known: &mut Vec<Kinematics>,
     ) -> Option<f64> {
         let mut energy = 0.0;
         known.clear();
@@ -255,10 +238,10 @@ impl<const D: usize> Solid<D> {
         let visit = |cell, at: At<'_, D>, response: Response<'_, D>| {
             let Stress { energy: part, stress } = response.stress();
             energy += at.weight * part;
-            known.push(*response.principal());
+            known.push(*response.kinematics());
             let mut local = [0.0; MAX_PLACES];
             at.add_forces(&stress, &mut local);
-            let excess = at.weight * (response.principal().volume() - 1.0);
+            let excess = at.weight * (response.kinematics().volume() - 1.0);
             for (pressure, share) in self.pressures.of(cell).iter().zip(at.shares) {
                 forces[*pressure] -= factor * share * excess;
             }
@@ -276,7 +259,7 @@ impl<const D: usize> Solid<D> {
         &self,
         places: &[f64],
         controls: Controls<'_>,
-        known: &[Principal],
+        known: &[Kinematics],
         wanted: Stiffness,
         values: &mut [f64],
     ) -> bool {
@@ -284,18 +267,21 @@ impl<const D: usize> Solid<D> {
         let pose = self.pose(places);
         let last = self.points.n_points - 1;
         let mut matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
+        let n = D * self.points.n_local + if self.pattern.is_mixed() { D + 1 } else { 0 };
         let mut point = 0;
         self.each_known_point(places, controls, known, |cell, at, response| {
             add_point(&at, &response.tangent(curvature), factor, &mut matrix);
             if response.pressure().is_some() {
-                add_volume(&at, &response.principal().cofactor(), factor, &mut matrix);
+                add_volume(&at, &response.kinematics().cofactor(), factor, &mut matrix);
             }
             if point == last {
                 self.pattern.add_cell(cell, values, |p, q| matrix[p][q]);
                 if let Some(pose) = pose.as_ref().filter(|_| self.ties.is_beside(cell)) {
                     self.add_tied(cell, pose, &matrix, values);
                 }
-                matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
+                for row in &mut matrix[..n] {
+                    row[..n].fill(0.0);
+                }
                 point = 0;
             } else {
                 point += 1;

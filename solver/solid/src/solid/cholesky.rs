@@ -60,6 +60,29 @@ struct Mixed {
     scales: Vec<f64>,
 }
 
+/// A matrix, and factors of one that is near.
+struct Near<'a> {
+    pattern: &'a Pattern,
+    matrix: &'a [f64],
+    factor: &'a Factor,
+    scales: &'a [f64],
+}
+
+impl Near<'_> {
+    /// Norm of a residual, those of places and pressures as one energy.
+    fn size(&self, all: &[f64]) -> f64 {
+        let squares = all.iter().zip(self.scales).map(|(value, scale)| value * value / scale);
+        squares.sum::<f64>().sqrt()
+    }
+}
+
+/// A solution with the sizes of what is left of its right-hand side, and of the whole.
+struct Corrected {
+    solution: Vec<f64>,
+    left: f64,
+    whole: f64,
+}
+
 impl Cholesky {
     /// Analyses a pattern.
     ///
@@ -141,23 +164,32 @@ impl Cholesky {
             self.apply(factor, right);
             return true;
         };
-        let size = |all: &[f64]| -> f64 {
-            all.iter().zip(scales).map(|(value, scale)| value * value / scale).sum::<f64>().sqrt()
-        };
-        let whole = size(right);
+        let near = Near { pattern, matrix, factor, scales };
+        let Corrected { solution, left, whole } = self.corrected(&near, right, N_CORRECTIONS);
+        right.copy_from_slice(&solution);
+        let is_accurate = left <= ACCURATE * whole;
+        is_accurate || {
+            let sizes = |all: &[f64]| all.iter().map(|value| value.abs()).collect::<Vec<_>>();
+            left <= ROUNDED * near.size(&pattern.times(&sizes(matrix), &sizes(right)))
+        }
+    }
+
+    /// Solves with factors of a matrix that is near, and corrections by the matrix itself as long as they are worth it.
+    fn corrected(&self, near: &Near<'_>, right: &[f64], most: usize) -> Corrected {
+        let whole = near.size(right);
         let mut solution = vec![0.0; right.len()];
         let mut residual = right.to_vec();
         let mut left = whole;
-        for _ in 0..N_CORRECTIONS {
+        for _ in 0..most {
             if left <= CORRECTED * whole {
                 break;
             }
             let mut correction = residual.clone();
-            self.apply(factor, &mut correction);
+            self.apply(near.factor, &mut correction);
             let next: Vec<f64> = solution.iter().zip(&correction).map(|(x, d)| x + d).collect();
-            let image = pattern.times(matrix, &next);
+            let image = near.pattern.times(near.matrix, &next);
             residual = right.iter().zip(&image).map(|(b, y)| b - y).collect();
-            let now = size(&residual);
+            let now = near.size(&residual);
             if now.is_nan() || now >= left {
                 break;
             }
@@ -167,12 +199,7 @@ impl Cholesky {
                 break;
             }
         }
-        right.copy_from_slice(&solution);
-        let is_accurate = left <= ACCURATE * whole;
-        is_accurate || {
-            let sizes = |all: &[f64]| all.iter().map(|value| value.abs()).collect::<Vec<_>>();
-            left <= ROUNDED * size(&pattern.times(&sizes(matrix), &sizes(right)))
-        }
+        Corrected { solution, left, whole }
     }
 
     /// Applies the inverse that the factors are of, in place.
@@ -191,19 +218,32 @@ impl Cholesky {
         }
     }
 
-    /// Solves for a matrix whose factors are nearly those at hand; none where that takes longer than new factors, or
-    /// with pressures.
+    /// Solves for a matrix whose factors are nearly those at hand: by conjugate gradients, or with pressures by
+    /// corrections. None where that takes longer than new factors.
     #[must_use]
-    pub fn conjugate_gradients(
+    pub fn solve_near(
         &self,
         pattern: &Pattern,
         values: &[f64],
         factor: &Factor,
         right: &[f64],
     ) -> Option<Vec<f64>> {
-        if factor.mixed.is_some() {
-            return None;
-        }
+        let Some(Mixed { scales, .. }) = &factor.mixed else {
+            return self.conjugate_gradients(pattern, values, factor, right);
+        };
+        let near = Near { pattern, matrix: values, factor, scales };
+        let Corrected { solution, left, whole } = self.corrected(&near, right, N_ITERATIONS);
+        (left <= SOLVED * whole).then_some(solution)
+    }
+
+    /// Conjugate gradients for a positive matrix; none where they take longer than new factors.
+    fn conjugate_gradients(
+        &self,
+        pattern: &Pattern,
+        values: &[f64],
+        factor: &Factor,
+        right: &[f64],
+    ) -> Option<Vec<f64>> {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
         let add = |to: &mut [f64], factor: f64, from: &[f64]| {
             to.iter_mut().zip(from).for_each(|(a, b)| *a += factor * b);

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod build;
+mod cell_means;
 mod cholesky;
 mod error;
 mod geometry;

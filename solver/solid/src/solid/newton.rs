@@ -2,10 +2,10 @@
 
 use super::SolidError;
 use super::cholesky::Factor;
-use super::mixed::saddle;
+use super::mixed::saddle::{self, Limits};
 use super::potential::{Potential, Slope, norm};
 use super::rigid::unknowns::Direction;
-use crate::material::{Curvature, Principal};
+use crate::material::{Curvature, Kinematics};
 
 /// Part of the decrease the slope promises that a step has to reach (Armijo's rule).
 const ARMIJO: f64 = 1e-4;
@@ -95,7 +95,8 @@ impl Minimiser {
         };
         turned_over(start)?;
         if solid.pattern.is_mixed() {
-            let found = saddle::find(potential, start, self.tolerance, self.max_iterations)?;
+            let limits = Limits { tolerance: self.tolerance, max_iterations: self.max_iterations };
+            let found = saddle::find(potential, start, limits, &mut self.factor)?;
             self.n_factors += found.n_factors;
             self.n_iterations += found.iterations;
             turned_over(&found.state)?;
@@ -146,7 +147,7 @@ impl Minimiser {
         &mut self,
         potential: &Potential<'_, D>,
         places: &[f64],
-        known: &[Principal],
+        known: &[Kinematics],
     ) -> Result<Factor, SolidError> {
         let solid = potential.solid;
         for curvature in [Curvature::True, Curvature::Positive] {

@@ -5,7 +5,7 @@ use alewife_mesh::Point;
 use super::assemble::{Controls, Stiffness, StrainHistory};
 use super::build::Solid;
 use super::geometry::MAX_NODES;
-use crate::material::{Curvature, Principal};
+use crate::material::{Curvature, Kinematics};
 
 /// Inertia of a step: the energy c/2 (x - y)^2 in the norm of the mass.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,8 +53,8 @@ pub(super) struct Slope {
     pub slope: Vec<f64>,
     /// Norm (N) of the largest of the forces of free components that balance.
     pub scale: f64,
-    /// Singular values of the deformations at all points; empty where there are several states.
-    pub known: Vec<Principal>,
+    /// What laws ask of the deformations at all points; empty where there are several states.
+    pub known: Vec<Kinematics>,
 }
 
 impl<'a, const D: usize> Potential<'a, D> {
@@ -124,13 +124,13 @@ impl<'a, const D: usize> Potential<'a, D> {
         Some(Slope { value, slope, scale, known })
     }
 
-    /// Its second derivatives by the unknowns, with singular values where they are known; none where a cell is
+    /// Its second derivatives by the unknowns, with what laws ask of deformations where that is known; none where a cell is
     /// turned over.
     pub(super) fn curvature(
         &self,
         places: &[f64],
         curvature: Curvature,
-        known: &[Principal],
+        known: &[Kinematics],
     ) -> Option<Vec<f64>> {
         let pattern = &self.solid.pattern;
         let mut values = vec![0.0; pattern.n_entries()];

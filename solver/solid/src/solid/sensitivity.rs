@@ -9,7 +9,7 @@ use super::cholesky::Factor;
 use super::geometry::{At, MAX_NODES, MAX_PLACES};
 use super::mesh::Order;
 use super::potential::Potential;
-use crate::material::{Curvature, Fibre, Lame, Principal, Tensor};
+use crate::material::{Curvature, Fibre, Kinematics, Lame, Tensor};
 
 /// Derivatives of z . r, where r is the slope of a potential and z a list of all components.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,8 +57,7 @@ impl Sensitivity {
 
 impl<const D: usize> Solid<D> {
     /// Solves the linear system of a potential at its minimum for a list of all components, as the adjoint
-    /// of a step asks for: by conjugate gradients where factors at hand are near, else by new ones, which are
-    /// kept. Zero where held. Singular values may be known, of all points or of none.
+    /// of a step asks for: by iterations where factors at hand are near, else by new ones, which are kept. Zero where held. What laws ask of deformations may be known, of all points or of none.
     ///
     /// # Errors
     /// [`SolidError::TurnedOver`], and [`SolidError::Singular`] where the state is no minimum.
@@ -66,16 +65,16 @@ impl<const D: usize> Solid<D> {
         &self,
         potential: &Potential<'_, D>,
         places: &[f64],
-        known: &[Principal],
+        known: &[Kinematics],
         right: &[f64],
         factor: &mut Option<Factor>,
     ) -> Result<Vec<f64>, SolidError> {
         let turned_over = || SolidError::TurnedOver(self.turned_over(places).unwrap_or_default());
         let values = potential.curvature(places, Curvature::True, known).ok_or_else(turned_over)?;
         let right = self.free(places, right);
-        let near = factor.as_ref().and_then(|factor| {
-            self.cholesky.conjugate_gradients(&self.pattern, &values, factor, &right)
-        });
+        let near = factor
+            .as_ref()
+            .and_then(|factor| self.cholesky.solve_near(&self.pattern, &values, factor, &right));
         if let Some(solution) = near {
             return Ok(self.all(places, &solution));
         }
@@ -89,7 +88,7 @@ impl<const D: usize> Solid<D> {
     }
 
     /// Derivatives of z . r at a state, the slope r of a potential with inertia or without; `levels` are those
-    /// of its damping, which matter for the shape. Singular values may be known, of all points or of none.
+    /// of its damping, which matter for the shape. What laws ask of deformations may be known, of all points or of none.
     ///
     /// # Errors
     /// [`SolidError::TurnedOver`], and [`SolidError::Rigid`] for the shape where parts are rigid.
@@ -97,7 +96,7 @@ impl<const D: usize> Solid<D> {
         &self,
         potential: &Potential<'_, D>,
         places: &[f64],
-        known: &[Principal],
+        known: &[Kinematics],
         z: &[f64],
         levels: Option<&[StrainLevel<'_>]>,
     ) -> Result<Sensitivity, SolidError> {
@@ -131,8 +130,8 @@ impl<const D: usize> Solid<D> {
                 let mut moved = moved_stress(&response, &rate);
                 let mut kept = 0.0;
                 if let Some(pressure) = self.pressures.at(cell, at.shares, z) {
-                    moved -= response.principal().cofactor() * pressure;
-                    kept = pressure * (1.0 - response.principal().volume());
+                    moved -= response.kinematics().cofactor() * pressure;
+                    kept = pressure * (1.0 - response.kinematics().volume());
                 }
                 self.add(cell, &at, &moved, &mut found.places);
                 let mut stress = shape_stress(&response, &rate, &moved);

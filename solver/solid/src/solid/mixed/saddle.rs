@@ -1,12 +1,16 @@
 //! Newton's method for places and pressures together: the saddle of a potential where volumes are kept.
 
-use crate::material::{Curvature, Principal};
+use crate::material::Curvature;
 use crate::solid::SolidError;
+use crate::solid::cholesky::Factor;
 use crate::solid::potential::{Potential, Rounding, Slope, norm};
 use crate::solid::rigid::unknowns::Direction;
 
 /// Part of the decrease the slope promises that a step has to reach (Armijo's rule).
 const ARMIJO: f64 = 1e-4;
+
+/// Factors are kept while an iteration divides the distance from the saddle by more than one over this.
+const KEPT: f64 = 0.1;
 
 /// Halvings of a step at most.
 const N_HALVINGS: usize = 30;
@@ -60,18 +64,29 @@ struct Newton {
     curvature: f64,
 }
 
-/// The saddle near a state, whose held components stay, to a residual of the forces that balance, and of the volumes.
+/// When a search ends.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::solid) struct Limits {
+    /// The residual of the forces that balance, and of the volumes.
+    pub tolerance: f64,
+    /// Iterations at most.
+    pub max_iterations: usize,
+}
+
+/// The saddle near a state, whose held components stay. Factors at hand serve while they bring it nearer; those of
+/// the last iteration that made new ones are left.
 pub(in crate::solid) fn find<const D: usize>(
     potential: &Potential<'_, D>,
     start: &[f64],
-    tolerance: f64,
-    max_iterations: usize,
+    Limits { tolerance, max_iterations }: Limits,
+    factor: &mut Option<Factor>,
 ) -> Result<Saddle, SolidError> {
     let mut measure = Measure::new(potential, start);
     let slope = |state: &[f64]| potential.slope(state).ok_or(SolidError::TurnedOver(0));
     let mut at = At { found: slope(start)?, state: start.to_vec() };
     let (mut scale, mut n_factors) = (at.found.scale, 0);
     let volume = norm(&measure.volumes);
+    let mut is_stale = false;
     for iterations in 0..max_iterations {
         let residual = measure.forces(&at.state, &at.found);
         scale = scale.max(at.found.scale);
@@ -81,34 +96,51 @@ pub(in crate::solid) fn find<const D: usize>(
             let slope = at.found.slope;
             return Ok(Saddle { state: at.state, iterations, n_factors, residual, slope });
         }
-        let mut next = None;
+        let near = factor.as_ref().filter(|_| !is_stale);
+        let near = near.and_then(|factor| direction(potential, &at, factor));
+        // One that leads upwards is judged by factors of its own
+        let mut next = near
+            .filter(|direction| direction.curvature > 0.0)
+            .and_then(|direction| measure.search(&at, &direction, scale));
         for curvature in [Curvature::True, Curvature::Positive] {
-            n_factors += 1;
-            let Some(direction) = direction(potential, &at, curvature) else { continue };
-            next = measure.search(&at, &direction, scale);
             if next.is_some() {
                 break;
             }
+            n_factors += 1;
+            *factor = factorise(potential, &at, curvature);
+            let direction = factor.as_ref().and_then(|new| direction(potential, &at, new));
+            next = direction.and_then(|direction| measure.search(&at, &direction, scale));
         }
-        at = next.ok_or(SolidError::NotConverged { iterations, residual, scale })?;
+        let next = next.ok_or(SolidError::NotConverged { iterations, residual, scale })?;
+        let before = measure.distance(&at.state, &at.found, scale);
+        is_stale = measure.distance(&next.state, &next.found, scale) > KEPT * before;
+        at = next;
     }
     let residual = measure.forces(&at.state, &at.found);
     Err(SolidError::NotConverged { iterations: max_iterations, residual, scale })
 }
 
-/// Newton's direction; none where it cannot be found.
-fn direction<const D: usize>(
+/// Factors of the second derivatives at a state; none where there are none.
+fn factorise<const D: usize>(
     potential: &Potential<'_, D>,
     at: &At,
     curvature: Curvature,
+) -> Option<Factor> {
+    let solid = potential.solid;
+    let values = potential.curvature(&at.state, curvature, &at.found.known)?;
+    solid.cholesky.factorise(&solid.pattern, &values)
+}
+
+/// Newton's direction by factors of the second derivatives, there or near; none where it cannot be found.
+fn direction<const D: usize>(
+    potential: &Potential<'_, D>,
+    at: &At,
+    factor: &Factor,
 ) -> Option<Newton> {
     let solid = potential.solid;
-    let known: &[Principal] = &at.found.known;
-    let values = potential.curvature(&at.state, curvature, known)?;
-    let factor = solid.cholesky.factorise(&solid.pattern, &values)?;
     let right = solid.free(&at.state, &at.found.slope);
     let mut free = right.clone();
-    let is_solved = solid.cholesky.solve(&solid.pattern, &factor, &mut free);
+    let is_solved = solid.cholesky.solve(&solid.pattern, factor, &mut free);
     let n = solid.pattern.n_places;
     let product = |of: std::ops::Range<usize>| -> f64 {
         right[of.clone()].iter().zip(&free[of]).map(|(a, b)| a * b).sum()
