@@ -97,9 +97,42 @@ fn the_file_is_taken_by_its_case_and_by_no_other() {
     assert!(facts["coefficient"][0]["uncertainty"].as_float().unwrap() > 0.0);
     let own = "extends = 'eel-calibration'\nreduced.calibrated.file = 'calibrated.toml'\n";
     let file = written(place.path(), "own.toml", own);
-    // Those that are written are not replaced
-    let taken = file.case().reduced_model().coefficients_of("");
-    assert_eq!(taken[0], 1.0);
+    // The later over the earlier: the file over what the case that is extended has, and what is set over the file
+    let taken = |file: &CaseFile| file.case().reduced_model().coefficients_of("");
+    assert!((taken(&file)[0] / 0.7 - 1.0).abs() < 0.02, "{:?}", taken(&file));
+    let path = place.path().join("own.toml").display().to_string();
+    let changed = Case::read(&path, &["reduced.coefficients.added_mass=0.9".to_owned()]).unwrap();
+    assert_eq!(taken(&changed)[0], 0.9);
+    assert_eq!(taken(&changed)[2], taken(&file)[2]);
+    let set =
+        format!("reduced.calibrated.file='{}'", place.path().join("calibrated.toml").display());
+    assert_eq!(taken(&Case::read("eel-calibration", &[set.clone()]).unwrap()), taken(&file));
+    // Also over what a body has of its own, and over an older file in a case as it was run
+    let body = "extends = 'body.toml'\nreduced.calibrated.file = 'calibrated.toml'\n";
+    let older = file.case().to_toml().unwrap();
+    std::fs::write(place.path().join("body.toml"), older).unwrap();
+    let newer = text.replace("added_mass = 0.", "added_mass = 1.");
+    std::fs::write(place.path().join("newer.toml"), newer).unwrap();
+    let newer = body.replace("calibrated.toml", "newer.toml");
+    let newer = written(place.path(), "over.toml", &newer);
+    assert!(taken(&newer)[0] > 1.5, "{:?}", taken(&newer));
+    let own_body = "extends = 'eel-calibration'\nreduced.body.eel-2.added_mass = 3.0\n";
+    std::fs::write(place.path().join("own-body.toml"), own_body).unwrap();
+    let path = place.path().join("own-body.toml").display().to_string();
+    let changed = Case::read(&path, &[set.clone()]).unwrap();
+    assert_eq!(changed.case().reduced_model().coefficients_of("eel-2"), taken(&file));
+    // What is written beside its name is refused
+    for (beside, key) in [
+        ("coefficients.added_mass = 0.9", "reduced.coefficients.added_mass is written here"),
+        ("body.eel-1.added_mass = 0.9", "reduced.body.eel-1.added_mass is written here"),
+    ] {
+        let both = format!("{own}reduced.{beside}\n");
+        std::fs::write(place.path().join("both.toml"), both).unwrap();
+        let error = Case::read(place.path().join("both.toml").to_str().unwrap(), &[]).unwrap_err();
+        let error = error.to_string();
+        assert!(error.contains(key) && error.contains("calibrated.toml has 0.7"), "{error}");
+        assert!(error.contains("both.toml:3:"), "{error}");
+    }
     let bare = "title = 't'\ngeometry = 'planar'
 fluid = { model = 'navier-stokes', density = 1000.0, viscosity = 1e-3 }
 time.unsteady = { step = 0.01, end = 1.0 }
@@ -189,4 +222,48 @@ from = [{ csv = 'rows.csv', time = 't', columns = { 'eel-1.x' = 'x' } }]
     assert!(error.contains("line 4") || error.contains("rise"), "{error}");
     let nothing = calibrate(&read("robot-eel", &[])).unwrap_err().to_string();
     assert!(nothing.contains("[calibration]"), "{nothing}");
+}
+
+#[test]
+fn a_calibration_that_fits_nothing_says_so() {
+    // A drag of a body that is fitted to a record of nothing it moves
+    let place = tempfile::tempdir().unwrap();
+    let rows = "t,x\n0.0,1.0\n0.1,1.1\n0.2,1.2\n";
+    std::fs::write(place.path().join("rows.csv"), rows).unwrap();
+    let text = "title = 't'\ngeometry = 'planar'
+fluid = { model = 'navier-stokes', density = 1000.0, viscosity = 1e-3 }
+time.unsteady = { step = 0.01, end = 1.0 }
+reduced = { loads = 'links' }
+[[body]]
+name = 'log'
+shape.ellipse.semi_axes = [0.1, 0.02]
+center = [0.0, 0.0]
+motion = 'free'
+velocity = [0.1, 0.0]
+[calibration]
+fit = ['FIT']
+from = [{ csv = 'rows.csv', time = 't', columns = { 'log.x' = 'x' } }]
+";
+    let file = written(place.path(), "idle.toml", &text.replace("FIT", "normal_quadratic"));
+    let error = calibrate(&file).unwrap_err();
+    let told = error.diagnostic(&file).unwrap();
+    assert_eq!(told.key, "calibration.fit");
+    assert!(told.message.contains("depends on normal_quadratic"), "{}", told.message);
+    assert_eq!(told.location.unwrap().line, 13);
+    let file = written(place.path(), "moves.toml", &text.replace("FIT", "tangential_linear"));
+    let result = calibrate(&file).unwrap();
+    assert!(result.remark.is_none() && result.fit.cost < result.fit.start_cost);
+    // One of two
+    let both = text.replace("FIT", "tangential_linear', 'normal_quadratic");
+    let result = calibrate(&written(place.path(), "one.toml", &both)).unwrap();
+    assert_eq!(result.has_effect, [true, false]);
+    assert!(result.text().contains("without effect"), "{}", result.text());
+    assert!(result.fit.uncertainties[0].is_finite(), "{:?}", result.fit);
+    // From where it ends nothing moves any more
+    let value =
+        format!("reduced.coefficients.tangential_linear={:?}", found(&result, "tangential_linear"));
+    let path = place.path().join("moves.toml").display().to_string();
+    let again = calibrate(&Case::read(&path, &[value]).unwrap()).unwrap();
+    let left = again.fit.cost / result.fit.cost - 1.0;
+    assert!(left.abs() < 1e-6 && again.fit.promised < 1e-6, "{:?}", again.fit);
 }

@@ -212,9 +212,12 @@ impl UntypedCase {
         let mut root = extended(text)?;
         let variants = variant_names(&root);
         check_names(&root)?;
+        let before = reduced_of(&root);
         if let Some(variant) = &variant {
             apply_variant(&mut root, &text.source, variant).map_err(wrong)?;
         }
+        calibrated_file::laid_over(before.as_ref(), &mut root).map_err(wrong)?;
+        let before = reduced_of(&root);
         for setting in settings {
             let setting::Setting { path, value } = setting::read(&root, setting).map_err(wrong)?;
             if path.split('.').next() == Some(REFERENCES) {
@@ -228,6 +231,7 @@ impl UntypedCase {
             }
             root.set(&path, value).map_err(wrong)?;
         }
+        calibrated_file::laid_over(before.as_ref(), &mut root).map_err(wrong)?;
         let sweep = root.table_mut().and_then(|entries| entries.remove(SWEEP));
         let names = [&text.name, &text.source.name].map(ToOwned::to_owned);
         Ok(Self { names, variant, variants, root, sweep })
@@ -315,6 +319,7 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
     let mut root = tree::parse(&text.source).map_err(wrong)?;
     reference_table::resolve(&mut root)?;
     let Some(extends) = root.table_mut().and_then(|entries| entries.remove("extends")) else {
+        calibrated_file::laid_over(None, &mut root).map_err(wrong)?;
         return Ok(root);
     };
     let refused = |message: String, help: &str| {
@@ -360,8 +365,16 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
         }
         entries.retain(|key, _| !OWN_KEYS.contains(&key.as_str()));
     }
+    calibrated_file::laid_over(None, &mut base).map_err(wrong)?;
+    let before = reduced_of(&base);
     base.merge(root);
+    calibrated_file::laid_over(before.as_ref(), &mut base).map_err(wrong)?;
     Ok(base)
+}
+
+/// What a tree has of `reduced`, before anything is laid over it.
+fn reduced_of(root: &TomlNode) -> Option<TomlNode> {
+    root.get("reduced").cloned()
 }
 
 fn is_same_file(one: &str, other: &str) -> bool {

@@ -12,6 +12,7 @@ use super::spec::{Block, SweepSpec, SweptKey, overlap};
 use crate::Diagnostic;
 use crate::model::numbers::reynolds;
 use crate::read::case_text::{Located, locate};
+use crate::read::files::calibrated_file;
 use crate::read::{CaseFile, UntypedCase, wrong};
 use crate::spec::fluid::viscosity::ViscositySpec;
 use crate::text::diagnostic::CaseError;
@@ -157,9 +158,11 @@ impl Sweep {
     /// [`CaseError::Wrong`] with what is wrong in it.
     pub fn case(&self, index: usize) -> Result<CaseFile, CaseError> {
         let mut untyped = self.untyped.clone();
+        let before = untyped.root.get("reduced").cloned();
         for PointSetting { path, value } in self.point(index).settings {
             untyped.root.set(&path, value).map_err(wrong)?;
         }
+        calibrated_file::laid_over(before.as_ref(), &mut untyped.root).map_err(wrong)?;
         if !self.keys().contains(&REYNOLDS) || self.keys().contains(&VISCOSITY) {
             return untyped.typed();
         }

@@ -31,6 +31,27 @@ impl Ended {
     }
 }
 
+impl Found {
+    /// Whether the objective depends on any number, as far as its derivatives say.
+    #[must_use]
+    pub fn has_effect(&self) -> bool {
+        self.all.iter().any(|one| one.slopes.iter().any(|slope| *slope != 0.0))
+    }
+
+    /// What is to be said of a search that has found nothing.
+    #[must_use]
+    pub fn remark(&self) -> Option<&'static str> {
+        let start = self.all.first()?;
+        if !self.has_effect() {
+            Some("nothing depends on any of the numbers: it is where it started")
+        } else if self.best.values == start.values {
+            Some("no number moved: nothing that was tried is better than the start")
+        } else {
+            None
+        }
+    }
+}
+
 /// A line for each number that was found, with its start, bounds and certainty.
 #[must_use]
 pub fn number_lines(bounded: &[Bounded], found: &Found, certainties: &Certainties) -> String {
@@ -48,6 +69,9 @@ pub fn number_lines(bounded: &[Bounded], found: &Found, certainties: &Certaintie
             one.upper,
             known.unwrap_or_default()
         );
+    }
+    if let Some(remark) = found.remark() {
+        let _ = writeln!(text, "{remark}");
     }
     if let Err(why) = certainties {
         let _ = writeln!(text, "how well they are determined is not known: {why}");
@@ -83,4 +107,33 @@ pub fn numbers_to_json(bounded: &[Bounded], found: &Found, certainties: &Certain
         })
     };
     bounded.iter().enumerate().map(number).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::Evaluated;
+
+    #[test]
+    fn a_search_that_finds_nothing_says_so() {
+        let at = |value: f64, objective: f64, slope: f64| Evaluated {
+            values: vec![value],
+            objective,
+            slopes: vec![slope],
+        };
+        let found = |all: Vec<Evaluated>, best: usize| Found {
+            best: all[best].clone(),
+            all,
+            ended: Ended::Converged,
+        };
+        let moved = found(vec![at(1.0, 2.0, -1.0), at(2.0, 1.0, 0.0)], 1);
+        assert!(moved.has_effect() && moved.remark().is_none());
+        let stays = found(vec![at(1.0, 2.0, -1.0), at(2.0, 3.0, 0.5)], 0);
+        assert!(stays.has_effect() && stays.remark().is_some_and(|one| one.contains("no number")));
+        let idle = found(vec![at(1.0, 2.0, 0.0)], 0);
+        assert!(!idle.has_effect() && idle.remark().is_some_and(|one| one.contains("depends")));
+        let one = Bounded { name: "k".to_owned(), start: 1.0, lower: 0.5, upper: 2.0, scale: None };
+        let lines = number_lines(&[one], &idle, &Err("none".to_owned()));
+        assert!(lines.contains("nothing depends"), "{lines}");
+    }
 }

@@ -21,6 +21,12 @@ pub struct Fit {
     pub parameters: Vec<f64>,
     /// Half the sum of the squares of what is left.
     pub cost: f64,
+    /// The same at the start.
+    pub start_cost: f64,
+    /// Part of the cost that a step of Gauss and Newton from here would take off: none where the fit has converged.
+    pub promised: f64,
+    /// Root of the sum of the squares of the derivatives of all residuals by each parameter.
+    pub sensitivities: Vec<f64>,
     /// By how much each parameter may be off, in units of what is left: the roots of the diagonal of the inverse
     /// of the normal matrix times the mean square left; infinite where the residuals do not determine it, and
     /// zero at a bound.
@@ -156,11 +162,32 @@ impl Normal {
         right
     }
 
+    /// Root of the sum of the squares of the derivatives by each parameter.
+    fn sensitivities(&self) -> Vec<f64> {
+        (0..self.n).map(|k| self.matrix[k * self.n + k].sqrt()).collect()
+    }
+
+    /// By how much half the sum of squares, which is `cost`, would fall in a step within bounds, over it.
+    fn promised(&self, cost: f64, rooms: &[Bounds]) -> f64 {
+        let step = self.step(0.0, rooms);
+        let mut change = 0.0;
+        for k in 0..self.n {
+            let row = (0..self.n).map(|j| self.matrix[k * self.n + j] * step[j]).sum::<f64>();
+            change += step[k] * (self.gradient[k] + 0.5 * row);
+        }
+        if cost > 0.0 { -change / cost } else { 0.0 }
+    }
+
     /// Uncertainties of parameters that are within their bounds.
     fn uncertainties(&self, mean_square: f64, is_held: &[bool]) -> Vec<f64> {
-        let free: Vec<usize> = (0..self.n).filter(|k| !is_held[*k]).collect();
-        let m = free.len();
         let mut sizes = vec![0.0; self.n];
+        // What changes nothing says nothing of the others
+        let is_seen = |k: &usize| self.matrix[k * self.n + k] > 0.0;
+        for k in (0..self.n).filter(|k| !is_held[*k] && !is_seen(k)) {
+            sizes[k] = f64::INFINITY;
+        }
+        let free: Vec<usize> = (0..self.n).filter(|k| !is_held[*k] && is_seen(k)).collect();
+        let m = free.len();
         let mut matrix: Vec<f64> = Vec::new();
         for i in &free {
             matrix.extend(free.iter().map(|j| self.matrix[i * self.n + j]));
@@ -220,22 +247,33 @@ pub fn fit_linear(
         left
     };
     let normal = Normal::new(columns, &left(&start));
-    let room = |(at, one): (&f64, &Bounds)| Bounds { lower: one.lower - at, upper: one.upper - at };
-    let rooms: Vec<Bounds> = start.iter().zip(bounds).map(room).collect();
-    let step = normal.step(0.0, &rooms);
+    let step = normal.step(0.0, &room(&start, bounds));
     let parameters: Vec<f64> = start.iter().zip(&step).map(|(at, by)| at + by).collect();
-    Ok(finished(&normal, parameters, &left, bounds, 1))
+    let (before, after) = (left(&start), left(&parameters));
+    let there = Normal::new(columns, &after);
+    let fit = finished(&there, parameters, &after, bounds, 1);
+    Ok(Fit { start_cost: half_square(&before), ..fit })
 }
 
+/// Half the sum of squares.
+fn half_square(values: &[f64]) -> f64 {
+    0.5 * values.iter().map(|one| one * one).sum::<f64>()
+}
+
+fn room(at: &[f64], bounds: &[Bounds]) -> Vec<Bounds> {
+    let room = |(at, one): (&f64, &Bounds)| Bounds { lower: one.lower - at, upper: one.upper - at };
+    at.iter().zip(bounds).map(room).collect()
+}
+
+/// A fit that ends at some parameters, where a normal matrix and residuals are known; its start cost is that of its end.
 fn finished(
     normal: &Normal,
     parameters: Vec<f64>,
-    left: &impl Fn(&[f64]) -> Vec<f64>,
+    left: &[f64],
     bounds: &[Bounds],
     steps: usize,
 ) -> Fit {
-    let left = left(&parameters);
-    let cost = 0.5 * left.iter().map(|one| one * one).sum::<f64>();
+    let cost = half_square(left);
     let spare = left.len().saturating_sub(parameters.len()).max(1);
     let is_held: Vec<bool> = parameters
         .iter()
@@ -243,7 +281,9 @@ fn finished(
         .map(|(at, one)| at <= &one.lower || at >= &one.upper)
         .collect();
     let uncertainties = normal.uncertainties(2.0 * cost / spare as f64, &is_held);
-    Fit { parameters, cost, uncertainties, steps }
+    let promised = normal.promised(cost, &room(&parameters, bounds));
+    let sensitivities = normal.sensitivities();
+    Fit { parameters, cost, start_cost: cost, promised, sensitivities, uncertainties, steps }
 }
 
 /// Values and derivatives of residuals.
@@ -301,20 +341,15 @@ pub fn fit(
     most: usize,
 ) -> Result<Fit, TreeError> {
     checked(start, bounds)?;
-    let square = |values: &[f64]| 0.5 * values.iter().map(|one| one * one).sum::<f64>();
     let mut at = start.to_vec();
     let mut now = linear(residuals, &at, bounds)?;
+    let start_cost = half_square(&now.values);
     // Changes far below the reach of differences say nothing
     let least = residuals.differences().map_or(LEAST, |part| 1e-3 * part);
     let (mut damping, mut steps) = (1e-3, 0);
     while steps < most {
         let normal = Normal::new(&now.columns, &now.values);
-        let rooms: Vec<Bounds> = at
-            .iter()
-            .zip(bounds)
-            .map(|(at, one)| Bounds { lower: one.lower - at, upper: one.upper - at })
-            .collect();
-        let step = normal.step(damping, &rooms);
+        let step = normal.step(damping, &room(&at, bounds));
         let change =
             step.iter().zip(&at).fold(0.0_f64, |a, (by, at)| a.max(by.abs() / at.abs().max(1e-3)));
         let next: Vec<f64> = at
@@ -327,7 +362,7 @@ pub fn fit(
         // A motion that fails is one that is worse
         let tried = linear(residuals, &next, bounds)
             .ok()
-            .filter(|one| square(&one.values) < square(&now.values));
+            .filter(|one| half_square(&one.values) < half_square(&now.values));
         match tried {
             Some(better) => {
                 at = next;
@@ -341,6 +376,5 @@ pub fn fit(
         }
     }
     let normal = Normal::new(&now.columns, &now.values);
-    let values = now.values;
-    Ok(finished(&normal, at, &|_| values.clone(), bounds, steps))
+    Ok(Fit { start_cost, ..finished(&normal, at, &now.values, bounds, steps) })
 }

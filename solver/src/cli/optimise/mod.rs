@@ -44,6 +44,11 @@ pub fn optimise(options: &SearchOptions) -> Result<Exit, Failure> {
             let message = format!("the search ended early: {why}; its best point is written");
             Err(Failure::new(Exit::Diverged, message))
         }
+        _ if !optimum.found.has_effect() => {
+            let message =
+                "nothing depends on the numbers that are sought: other ones, or another objective";
+            Err(Failure::new(Exit::BadCase, message))
+        }
         _ if compared.iter().all(Compared::is_within) => Ok(Exit::Done),
         _ => Ok(Exit::OutsideTolerance),
     }

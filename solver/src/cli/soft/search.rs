@@ -101,6 +101,11 @@ where
             let message = format!("the search ended early: {why}; its best point is written");
             Err(Failure::new(Exit::Diverged, message))
         }
+        _ if !result.found.has_effect() => {
+            let message =
+                "nothing depends on the numbers that are sought: other ones, or another record";
+            Err(Failure::new(Exit::BadCase, message))
+        }
         _ if result.compared.iter().any(|one| !one.is_within()) => Ok(Exit::OutsideTolerance),
         _ => Ok(Exit::Done),
     }

@@ -30,6 +30,9 @@ pub enum CalibrateError {
         /// What is wrong.
         error: Box<CaseError>,
     },
+    /// Nothing has been fitted, and why.
+    #[error("{0}")]
+    Fit(String),
     /// A reduced model cannot be made.
     #[error(transparent)]
     Model(#[from] ReducedError),
@@ -64,6 +67,10 @@ impl CalibrateError {
                     }
                     error => (key, format!("with these settings: {error}"), String::new()),
                 }
+            }
+            Self::Fit(what) => {
+                let help = "coefficients that move what is recorded: see the page on calibration";
+                ("calibration.fit".to_owned(), what.clone(), help.to_owned())
             }
             _ => return None,
         };

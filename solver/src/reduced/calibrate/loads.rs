@@ -122,5 +122,7 @@ pub fn fitted(
             with.iter().zip(&constant).map(|(with, without)| with - without).collect()
         })
         .collect();
-    Ok(fit_linear(&columns, &constant, &sought.bounds)?)
+    let fit = fit_linear(&columns, &constant, &sought.bounds)?;
+    let start = loads.left(&sought.start);
+    Ok(Fit { start_cost: 0.5 * start.iter().map(|one| one * one).sum::<f64>(), ..fit })
 }

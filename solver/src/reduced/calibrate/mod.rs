@@ -9,6 +9,7 @@ mod loads;
 mod record;
 mod report;
 mod sought;
+mod standing;
 mod tracks;
 
 pub use compare::{Deviation, Overlay};
@@ -30,6 +31,10 @@ pub struct Calibrated {
     pub fit: Fit,
     /// Bounds of each.
     pub bounds: Vec<[f64; 2]>,
+    /// Whether each changes anything of what is fitted.
+    pub has_effect: Vec<bool>,
+    /// What is to be said of the fit, if anything is.
+    pub remark: Option<String>,
     /// Errors by quantity of all runs and records, those fitted and those held out.
     pub deviations: Vec<Deviation>,
     /// Tracks of all runs and records over those of the model.
@@ -52,8 +57,8 @@ fn is_linear(law: LoadLaw) -> bool {
 /// Finds the coefficients that a case asks for.
 ///
 /// # Errors
-/// `CalibrateError` when the case asks for none, a run or a record cannot be read or is of another swimmer, or a motion
-/// fails.
+/// `CalibrateError` when the case asks for none, a run or a record cannot be read or is of another swimmer, a motion
+/// fails, or nothing is fitted.
 pub fn calibrate(file: &CaseFile) -> Result<Calibrated, CalibrateError> {
     let case = file.case();
     let Some(spec) = &case.calibration else { return Err(CalibrateError::Nothing) };
@@ -66,6 +71,7 @@ pub fn calibrate(file: &CaseFile) -> Result<Calibrated, CalibrateError> {
         FitBy::Tracks => tracks::fitted(&fitted, &sought, MOST_STEPS)?,
         FitBy::Both => both::fitted(&fitted, &sought, MOST_STEPS)?,
     };
+    let remark = standing::judged(&fit, &sought.start, &sought.bounds, &spec.fit)?;
     let found = with_found(&reduced, &spec.fit, &fit.parameters);
     let (mut deviations, mut overlays) = (Vec::new(), Vec::new());
     for record in &records {
@@ -76,6 +82,8 @@ pub fn calibrate(file: &CaseFile) -> Result<Calibrated, CalibrateError> {
     Ok(Calibrated {
         names: spec.fit.clone(),
         bounds: spec.fit.iter().map(|name| spec.bounds_of(name)).collect(),
+        has_effect: standing::has_effect(&fit, &sought.bounds),
+        remark,
         fit,
         deviations,
         overlays,

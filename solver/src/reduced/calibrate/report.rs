@@ -14,13 +14,20 @@ impl Calibrated {
     fn doubt(&self, nth: usize) -> Option<&'static str> {
         let (value, error) = (self.fit.parameters[nth], self.fit.uncertainties[nth]);
         let [lower, upper] = self.bounds[nth];
-        if value <= lower || value >= upper {
+        if !self.has_effect[nth] {
+            Some("without effect")
+        } else if value <= lower || value >= upper {
             Some("at its bound")
         } else if !error.is_finite() || error > value.abs() {
             Some("undetermined")
         } else {
             None
         }
+    }
+
+    /// Roots of the sums of squares of what is left, at the end and at the start.
+    fn misfits(&self) -> [f64; 2] {
+        [self.fit.cost, self.fit.start_cost].map(|cost| (2.0 * cost).sqrt())
     }
 
     /// Lines for the terminal.
@@ -37,6 +44,11 @@ impl Calibrated {
                 significant(value),
                 significant(error)
             );
+        }
+        let [left, start] = self.misfits();
+        let _ = writeln!(text, "left {}, {} at the start", significant(left), significant(start));
+        if let Some(remark) = &self.remark {
+            let _ = writeln!(text, "{remark}");
         }
         for is_held_out in [false, true] {
             let own: Vec<_> =
@@ -128,6 +140,9 @@ impl Calibrated {
                 facts.insert(name.to_owned(), vec![least, most].into());
             }
         }
+        let [left, start] = self.misfits();
+        facts.insert("left".to_owned(), left.into());
+        facts.insert("left_at_start".to_owned(), start.into());
         facts.insert("coefficient".to_owned(), self.coefficients().into());
         let from: Vec<Value> = self.origins.iter().map(Origin::table).collect();
         facts.insert("from".to_owned(), from.into());

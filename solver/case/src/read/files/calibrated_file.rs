@@ -10,59 +10,157 @@ use crate::text::tree::{self, TomlNode, TomlValue, TreeError};
 /// What is taken over from the table `calibrated` of the file.
 const TAKEN: [&str; 4] = ["bodies", "periods", "amplitudes", "viscosities"];
 
+/// A table by its keys.
+type Entries = BTreeMap<String, TomlNode>;
+
+/// What a calibrated file has.
+struct Calibrated {
+    /// Of all bodies without their own.
+    coefficients: Entries,
+    /// Of single bodies.
+    bodies: BTreeMap<String, Entries>,
+    facts: TomlNode,
+}
+
+fn refused(origin: &Origin, message: String, help: &str) -> TreeError {
+    TreeError { origin: origin.clone(), message, help: help.to_owned() }
+}
+
+fn law(node: &TomlNode) -> String {
+    node.get("reduced.loads").and_then(TomlNode::text).unwrap_or_default().to_owned()
+}
+
+impl Calibrated {
+    /// Of the file that a case names, if it does and has not been read yet.
+    fn read(root: &TomlNode) -> Result<Option<Self>, TreeError> {
+        let Some(asked) = root.get("reduced.calibrated.file") else { return Ok(None) };
+        // It was read before the case was written down as it was run
+        if root.get("reduced.calibrated.bodies").is_some() {
+            return Ok(None);
+        }
+        let Some(path) = asked.text() else { return Ok(None) };
+        let origin = &asked.origin;
+        let source = source_beside(path, origin).map_err(|what| {
+            refused(origin, what, "give the file that `alewife calibrate` has written")
+        })?;
+        let file = tree::parse(&Arc::new(source))?;
+        let (ours, theirs) = (law(root), law(&file));
+        let coefficients = file.get("reduced.coefficients").and_then(TomlNode::table);
+        let (Some(coefficients), Some(facts)) = (coefficients, file.get("calibrated")) else {
+            return Err(refused(
+                origin,
+                format!("{path} was not written by `alewife calibrate`"),
+                "give the file calibrated.toml of a calibration",
+            ));
+        };
+        if ours != theirs {
+            let message = format!(
+                "{path} has coefficients of the law \"{theirs}\", and the case has \"{ours}\""
+            );
+            let help = "give the file of a calibration with this law, or write the other law";
+            return Err(refused(origin, message, help));
+        }
+        let bodies = file.get("reduced.body").and_then(TomlNode::table).into_iter().flatten();
+        let bodies = bodies.filter_map(|(name, own)| Some((name.clone(), own.table()?.clone())));
+        Ok(Some(Self {
+            coefficients: coefficients.clone(),
+            bodies: bodies.collect(),
+            facts: facts.clone(),
+        }))
+    }
+
+    /// What it has of a coefficient, of a body if one is named.
+    fn value(&self, body: Option<&str>, name: &str) -> Option<&TomlNode> {
+        let own = body.and_then(|body| self.bodies.get(body)?.get(name));
+        own.or_else(|| self.coefficients.get(name))
+    }
+}
+
+/// Paths in `reduced` of the tables of coefficients that a case writes, with the body of each.
+fn written(root: &TomlNode) -> Vec<(String, Option<String>)> {
+    let bodies = root.get("reduced.body").and_then(TomlNode::table).into_iter().flatten();
+    let of_body = |name: &String| (format!("body.{name}"), Some(name.clone()));
+    let all = std::iter::once(("coefficients".to_owned(), None));
+    all.chain(bodies.map(|(name, _)| of_body(name))).collect()
+}
+
+fn number(node: &TomlNode) -> Option<f64> {
+    match node.value {
+        TomlValue::Float(value) => Some(value),
+        TomlValue::Integer(value) => Some(value as f64),
+        _ => None,
+    }
+}
+
+/// What has been laid over a table `reduced`, the later over the earlier: where it names a file, what that has replaces
+/// coefficients from before, and those that are written beside its name are refused.
+///
+/// # Errors
+/// A coefficient that is written beside the name of a file that has it, too.
+pub fn laid_over(before: Option<&TomlNode>, root: &mut TomlNode) -> Result<(), TreeError> {
+    let Some(asked) = root.get("reduced.calibrated.file").cloned() else { return Ok(()) };
+    let earlier = |path: &str| before.and_then(|before| before.get(path));
+    if earlier("calibrated.file") == Some(&asked) {
+        return Ok(());
+    }
+    // Facts of a file that was named before
+    let calibrated = root.find_mut("reduced.calibrated").and_then(TomlNode::table_mut);
+    if let (Some(entries), Some(old)) = (calibrated, earlier("calibrated")) {
+        entries
+            .retain(|name, node| !TAKEN.contains(&name.as_str()) || old.get(name) != Some(&*node));
+    }
+    // What is wrong with the file is told when the case is whole
+    let Ok(Some(file)) = Calibrated::read(root) else { return Ok(()) };
+    for (path, body) in written(root) {
+        let Some(table) = root.find_mut(&format!("reduced.{path}")).and_then(TomlNode::table_mut)
+        else {
+            continue;
+        };
+        for name in table.keys().cloned().collect::<Vec<String>>() {
+            let (Some(own), Some(found)) = (table.get(&name), file.value(body.as_deref(), &name))
+            else {
+                continue;
+            };
+            if earlier(&format!("{path}.{name}")) == Some(own) {
+                table.remove(&name);
+            } else if number(own) != number(found) {
+                let (own, value) = (own.clone(), number(found).unwrap_or(f64::NAN));
+                let file = asked.text().unwrap_or_default();
+                return Err(refused(
+                    &own.key,
+                    format!("reduced.{path}.{name} is written here, and {file} has {value} for it"),
+                    "leave one of them out; a variant, --set or a case that extends this one may write it",
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Takes over what a calibrated file has, so that a case stands for itself.
 ///
 /// # Errors
 /// When it cannot be read, is none, or is of another law of loads.
 pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
-    let Some(asked) = root.get("reduced.calibrated.file") else { return Ok(()) };
-    // It was read before the case was written down as it was run
-    if root.get("reduced.calibrated.bodies").is_some() {
+    let Some(Calibrated { coefficients, bodies, facts }) = Calibrated::read(root)? else {
         return Ok(());
-    }
-    let origin = asked.origin.clone();
-    let refused = |message: String, help: &str| TreeError {
-        origin: origin.clone(),
-        message,
-        help: help.to_owned(),
     };
-    let Some(path) = asked.text().map(str::to_owned) else { return Ok(()) };
-    let source = source_beside(&path, &origin)
-        .map_err(|what| refused(what, "give the file that `alewife calibrate` has written"))?;
-    let file = tree::parse(&Arc::new(source))?;
-    let law = |node: &TomlNode, key: &str| {
-        node.get(key).and_then(TomlNode::text).unwrap_or_default().to_owned()
+    let Some(origin) = root.get("reduced.calibrated.file").map(|asked| asked.origin.clone()) else {
+        return Ok(());
     };
-    let (ours, theirs) = (law(root, "reduced.loads"), law(&file, "reduced.loads"));
-    let (Some(found), Some(facts)) = (file.get("reduced.coefficients"), file.get("calibrated"))
-    else {
-        return Err(refused(
-            format!("{path} was not written by `alewife calibrate`"),
-            "give the file calibrated.toml of a calibration",
-        ));
-    };
-    if ours != theirs {
-        return Err(refused(
-            format!("{path} has coefficients of the law \"{theirs}\", and the case has \"{ours}\""),
-            "give the file of a calibration with this law, or write the other law",
-        ));
-    }
-    let of_bodies = file.get("reduced.body").cloned();
-    let (found, facts) = (found.clone(), facts.clone());
     let Some(reduced) = root.find_mut("reduced").and_then(TomlNode::table_mut) else {
         return Ok(());
     };
-    let TomlValue::Table(found) = found.value else { return Ok(()) };
     let empty = || TomlNode {
         key: origin.clone(),
         origin: origin.clone(),
-        value: TomlValue::Table(Default::default()),
+        value: TomlValue::Table(BTreeMap::default()),
     };
-    fill(reduced.entry("coefficients".to_owned()).or_insert_with(empty), found, &origin);
-    if let Some(TomlValue::Table(bodies)) = of_bodies.map(|node| node.value) {
+    fill(reduced.entry("coefficients".to_owned()).or_insert_with(empty), coefficients, &origin);
+    if !bodies.is_empty() {
         let all = reduced.entry("body".to_owned()).or_insert_with(empty);
         for (body, own) in bodies {
-            if let (Some(all), TomlValue::Table(own)) = (all.table_mut(), own.value) {
+            if let Some(all) = all.table_mut() {
                 fill(all.entry(body).or_insert_with(empty), own, &origin);
             }
         }
@@ -80,7 +178,7 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
 }
 
 /// Puts values into a table that has none of their names.
-fn fill(table: &mut TomlNode, found: BTreeMap<String, TomlNode>, origin: &Origin) {
+fn fill(table: &mut TomlNode, found: Entries, origin: &Origin) {
     if let Some(own) = table.table_mut() {
         for (name, mut value) in found {
             (value.key, value.origin) = (origin.clone(), origin.clone());

@@ -80,7 +80,7 @@ pub struct ConnectionSpec {
     pub values: Vec<Vec<f64>>,
 }
 
-/// `reduced.calibrated`: the file that `alewife calibrate` has written, whose coefficients are taken where the case has none.
+/// `reduced.calibrated`: the file that `alewife calibrate` has written, whose coefficients are taken.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
