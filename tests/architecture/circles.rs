@@ -14,7 +14,7 @@ const ROOMS_OF_CASES: [(&str, &[&str]); 8] = [
     ("read", &["model", "spec", "sweep", "text"]),
     ("rules", &["model", "quantity", "read", "spec", "text"]),
     ("soft", &["read", "spec", "text"]),
-    ("sweep", &["model", "quantity", "read", "rules", "spec", "text"]),
+    ("sweep", &["model", "quantity", "read", "rules", "soft", "spec", "text"]),
 ];
 
 /// A module of a crate by its path, the root of the crate having none.

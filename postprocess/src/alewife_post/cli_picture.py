@@ -53,6 +53,8 @@ def write_picture(options: argparse.Namespace) -> None:
 def _picture(runs: list[Run], options: argparse.Namespace) -> Figure:
     run, view = runs[0], options.view and tuple(options.view)
     times = options.time or [None]
+    if any("soft" in one.case for one in runs):
+        return _soft(runs, times, options)
     if not any(one.is_spatial for one in runs):
         refuse_in_the_plane(options)
         return _in_the_plane(runs, times, options)
@@ -83,6 +85,27 @@ def _picture(runs: list[Run], options: argparse.Namespace) -> Figure:
     return slices.slice_picture(
         run, quantity or "speed", time=time, plane=options.slice, view=view, frame=options.frame,
         lines=options.lines or "streamlines", painter=options.painter, scale=look,
+    )  # fmt: skip
+
+
+def _soft(runs: list[Run], times: list[float | None], options: argparse.Namespace) -> Figure:
+    from alewife_post import soft
+
+    if len(runs) * len(times) > 1:
+        raise ValueError("soft cases have no panels: draw one by one, with the same --limits")
+    of_flows = ("slice", "surface", "iso", "scene", "follow", "frame", "lines", "on", "particles")
+    given = [f"--{name}" for name in (*of_flows, "contours") if getattr(options, name)]
+    if given:
+        raise ValueError(f"{', '.join(given)}: of runs with a flow; this is one of a soft case")
+    if options.view and runs[0].is_spatial:
+        raise ValueError("--view is for runs in the plane: in space --camera says where from")
+    if options.camera and not runs[0].is_spatial:
+        raise ValueError("--camera is for runs in space")
+    return soft.picture(
+        runs[0], options.quantity or "displacement", time=times[0],
+        view=options.view and tuple(options.view),
+        look_from=options.camera and tuple(options.camera),
+        mirror=not options.half, scale=cli_look.scale(options),
     )  # fmt: skip
 
 
@@ -175,7 +198,8 @@ def add_look(parser: argparse.ArgumentParser, quantities: tuple[str, ...]) -> No
     known = ", ".join(quantities)
     parser.add_argument(
         "--quantity", metavar="NAME",
-        help=f"{known}, or a scalar of the run; speed, on surfaces pressure, if absent",
+        help=f"{known}, or a scalar of the run; speed, on surfaces pressure, if absent; of a soft "
+        "case displacement, if absent, strain, speed, volume-ratio, pressure or mesh",
     )  # fmt: skip
     parser.add_argument(
         "--view",

@@ -97,7 +97,23 @@ def comparisons(run: Run) -> list[dict[str, Any]]:
     path = run.path / "comparison.json"
     if not path.is_file():
         return []
-    return json.loads(path.read_text())["comparisons"]
+    found = json.loads(path.read_text())
+    # Of a soft case a list, of values at the end
+    return [_of_soft(one) for one in found] if isinstance(found, list) else found["comparisons"]
+
+
+def _of_soft(one: dict[str, Any]) -> dict[str, Any]:
+    """A comparison of a soft case as those of flows are."""
+    computed = one["computed"]
+    return one | {
+        "minus": None,
+        "statistic": "final",
+        "at": None,
+        "difference": None if computed is None else computed - one["reference"],
+        "is_relative": False,
+        "tolerance": one["allowed"],
+        "verdict": "within" if one["within"] else "OUTSIDE",
+    }
 
 
 def window(case: dict[str, Any]) -> tuple[float, float] | None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from alewife_post import movie, planar, stage, style
+from alewife_post import movie, planar, soft, stage, style
 from alewife_post.page import SIZE
 from alewife_post.read import Run, check_run
 from alewife_post.request import (
@@ -27,6 +27,8 @@ __all__ = ["MOST_FRAMES", "QUANTITIES", "Moment", "Request", "film"]
 def film(run: Run, out: Path, request: Request, report: Callable[[str], None] = print) -> int:
     """Write a film of a run, finished or under way; returns the number of frames."""
     check_run(run)
+    if soft.is_soft(run):
+        return soft.film(run, out, request, report)
     out = Path(out)
     movie.check(out)
     request = checked_request(request)

@@ -9,7 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from PIL import Image
 
-from alewife_post import figure, stills, style
+from alewife_post import figure, soft, stills, style
 from alewife_post.read import Run, open_run
 from alewife_post.whole import replacing
 
@@ -52,10 +52,12 @@ def pictures(
 
 
 def default_picture(run: Run) -> Figure:
-    """The scene of a run in space, of any other a picture in the plane.
+    """The scene of a run in space, of any other a picture in the plane; of a soft case its body.
 
     It shows the first scalar, for whose sake a case has it, or the speed.
     """
+    if soft.is_soft(run):
+        return soft.picture(run)
     shown = next(iter(run.scalars), "speed")
     if run.is_spatial:
         return stills.scene_picture(run, quantity=shown)

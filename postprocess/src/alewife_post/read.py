@@ -35,10 +35,12 @@ __all__ = [
     "Run",
     "Shape",
     "Solid",
+    "SolidField",
     "check_run",
     "open_run",
     "read_case",
     "read_field",
+    "read_solid",
 ]
 
 Array = np.ndarray
@@ -86,6 +88,21 @@ class Field:
     """Another quantity, made of these, `(n_nodes,)`."""
     scalars: dict[str, Array] = field(default_factory=dict)
     """What the flow carries, by its names, each `(n_nodes,)`."""
+
+
+@dataclass(frozen=True)
+class SolidField:
+    """A soft body on its mesh at one time, of quadratic triangles or tetrahedra."""
+
+    time: float
+    nodes: Array
+    """Places, `(n_nodes, d)`."""
+    cells: Array
+    """Nodes of each cell, `(n_cells, 6)`, in space `(n_cells, 10)`."""
+    at_nodes: dict[str, Array]
+    """Vectors `(n_nodes, d)` and numbers `(n_nodes,)` by name."""
+    in_cells: dict[str, Array]
+    """Numbers of cells `(n_cells,)` by name."""
 
 
 @dataclass(frozen=True)
@@ -194,8 +211,13 @@ class Run:
 
     @cached_property
     def fields(self) -> list[Frame]:
-        """All field files in the order of time."""
+        """All field files of a flow in the order of time."""
         self.check_flow()
+        return self.frames
+
+    @cached_property
+    def frames(self) -> list[Frame]:
+        """All field files in the order of time, of a flow or of a soft body."""
         listing = self.path / "fields.pvd"
         if not listing.exists():
             return []
@@ -210,27 +232,32 @@ class Run:
         return read_field(self.frame(time).path)
 
     def frame(self, time: float | None = None) -> Frame:
-        """The frame nearest to `time`, or the last one."""
-        if not self.fields:
+        """The frame of a flow nearest to `time`, or the last one."""
+        self.check_flow()
+        return self.frame_at(time)
+
+    def frame_at(self, time: float | None = None) -> Frame:
+        """The same, of a flow or of a soft body."""
+        if not self.frames:
             raise FileNotFoundError(
                 f"{self.path} has no field files: see output.fields of its case"
             )
         if time is None:
-            return self.fields[-1]
+            return self.frames[-1]
         at = checked.time(time)
-        return min(self.fields, key=lambda frame: abs(frame.time - at))
+        return min(self.frames, key=lambda frame: abs(frame.time - at))
 
     def check_flow(self) -> None:
         """ValueError where there is no flow, but a soft body alone."""
         if "soft" in self.case:
             raise ValueError(
-                f"{self.path} is a run of a soft case, which has no flow to draw: "
-                "open its fields.pvd in ParaView; alewife-post plot has its series"
+                f"{self.path} is a run of a soft case, which has no flow: alewife-post picture, "
+                "film and gallery draw its body, plot its series; ParaView opens its fields.pvd"
             )
 
     def check_time(self, time: float) -> None:
         """ValueError where no field can be meant: before the first one, or after the last one."""
-        times = [frame.time for frame in self.fields]
+        times = [frame.time for frame in self.frames]
         if not times:
             return
         first, last = times[0], times[-1]
@@ -267,7 +294,7 @@ class Run:
     @property
     def is_unsteady(self) -> bool:
         """Whether the flow changes in time."""
-        return "unsteady" in self.case["time"]
+        return "soft" in self.case or "unsteady" in self.case["time"]
 
     @property
     def is_axisymmetric(self) -> bool:
@@ -319,28 +346,54 @@ def _is_no_run(path: Path) -> str:
     return f"{path} is not a run: it has no case.toml{hint}"
 
 
-def read_field(path: str | Path) -> Field:
-    """Read one field file."""
+def read_solid(path: str | Path) -> SolidField:
+    """Read one field file of a soft body."""
     grid = _read_grid(Path(path))
+    cells, n = _cells(grid, path)
+
+    def all_of(data: object) -> dict[str, Array]:
+        return {name: np.array(values, dtype=float) for name, values in data.items()}
+
+    at_nodes = {
+        name: values[:, :n] if values.ndim > 1 else values
+        for name, values in all_of(grid.point_data).items()
+    }
+    return SolidField(
+        time=float(grid.field_data.get("TimeValue", [0.0])[0]),
+        nodes=np.array(grid.points[:, :n], dtype=float),
+        cells=cells,
+        at_nodes=at_nodes,
+        in_cells=all_of(grid.cell_data),
+    )
+
+
+def _cells(grid: pyvista.UnstructuredGrid, path: str | Path) -> tuple[Array, int]:
+    """Nodes of all cells, and the number of dimensions."""
     by_type = grid.cells_dict
     dimensions = {QUADRATIC_TRIANGLE: 2, QUADRATIC_TETRAHEDRON: 3}
     if len(by_type) != 1 or set(by_type) - set(dimensions):
         raise ValueError(
             f"{path}: cells of VTK types {sorted(by_type)}; 22 or 24 alone can be drawn"
         )
+    ((kind, cells),) = by_type.items()
+    return np.array(cells), dimensions[kind]
+
+
+def read_field(path: str | Path) -> Field:
+    """Read one field file."""
+    grid = _read_grid(Path(path))
+    cells, n = _cells(grid, path)
     missing = OF_FLOW - set(grid.point_data.keys())
     if missing:
         found = ", ".join(sorted(grid.point_data.keys())) or "nothing"
         raise ValueError(
             f"{path} has no {' and no '.join(sorted(missing))} at nodes; it has {found}"
         )
-    ((kind, cells),) = by_type.items()
-    n = dimensions[kind]
     time = grid.field_data.get("TimeValue", [0.0])[0]
     return Field(
         time=float(time),
         nodes=np.array(grid.points[:, :n], dtype=float),
-        cells=np.array(cells),
+        cells=cells,
         velocity=np.array(grid.point_data["velocity"][:, :n], dtype=float),
         pressure=np.array(grid.point_data["pressure"], dtype=float),
         vorticity=np.array(grid.point_data["vorticity"], dtype=float),

@@ -85,6 +85,8 @@ LOOKS = {
     "q": Look("Q", "Reds", "PiYG_r"),
     "traction": Look("traction", "magma", "magma"),
     "wall-shear": Look("wall shear stress", "magma", "magma"),
+    "displacement": Look("displacement", "viridis", "viridis"),
+    "strain": Look("equivalent strain", "magma", "magma"),
 }
 
 

@@ -30,7 +30,7 @@ def summary(run: Run) -> dict[str, Any]:
         "to": float(time[-1]) if len(time) else None,
         "quantities": [name for name in series if name != "time"],
     }
-    found["fields"] = [frame.time for frame in run.fields]
+    found["fields"] = [frame.time for frame in run.frames]
     if len(time):
         start, end, what = evidence.cycle(run)
         found["averaged"] = {"from": start, "to": end, "what": what}
@@ -57,9 +57,9 @@ def _case(run: Run) -> dict[str, Any]:
     return {
         "geometry": case["geometry"],
         "units": case.get("units"),
-        "fluid": case.get("fluid", {}).get("model"),
-        "time": next(iter(case["time"]), None),
-        "bodies": [body.get("name") for body in case.get("body", [])],
+        "fluid": "soft" if "soft" in case else case.get("fluid", {}).get("model"),
+        "time": next(iter(case.get("time", {"unsteady": {}})), None),
+        "bodies": [body.get("name") for body in case.get("body", case.get("solid", []))],
         "swimmers": [swimmer.get("name") for swimmer in case.get("swimmer", [])],
     }
 

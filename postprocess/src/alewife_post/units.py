@@ -71,6 +71,7 @@ def unit_of(dimension: str, given: Given, *, is_planar: bool = False) -> str | N
     per_depth = f"/{length}" if is_planar else ""
     found = {
         "length": (length, length),
+        "displacement": (length, length),
         "angle": ("rad", "rad"),
         "speed": (f"{length}/{time}", length and time),
         "turn": (f"rad/{time}", time),

@@ -104,7 +104,9 @@ impl Progress {
                 significant(*end),
             ),
         };
-        say(&format!("{}: {}, {place}", directory.display(), self.state()));
+        let model = self.status.fidelity.as_ref();
+        let model = model.map_or_else(String::new, |name| format!(", {name} model"));
+        say(&format!("{}: {}, {place}{model}", directory.display(), self.state()));
         if self.is_killed {
             say(match &self.checkpoint {
                 Some(_) => "  its process was killed: run it again to continue",
@@ -122,6 +124,8 @@ impl Progress {
         }
         match &self.checkpoint {
             Some(path) => say(&format!("  latest checkpoint: {}", path.display())),
+            // One without a flow is made in one go
+            None if self.status.fidelity.is_some() => {}
             None => say("  no checkpoint"),
         }
         for (index, leg) in self.legs.iter().enumerate() {

@@ -39,9 +39,9 @@ pub use message_file::{MessageFile, MessageSummary, read_messages};
 pub use observers::{Shown, observers};
 pub use run_directory::{
     COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, Frame, History, LOCK_FILE, Leg,
-    LegFile, LockError, MESH_SIZE_FILE, Origin, Point, Provenance, Restarts, RunDirectory,
-    RunDirectoryError, RunLock, RunState, STOP, Start, Status, StatusFile, WriteTimes, checkpoints,
-    checksum, executable, frames, read_outcome, read_series, run_of_state,
+    LegFile, LockError, MESH_SIZE_FILE, Motion, MotionRecord, Origin, Point, Provenance, Restarts,
+    RunDirectory, RunDirectoryError, RunLock, RunState, STOP, Start, Status, StatusFile,
+    WriteTimes, checkpoints, checksum, executable, frames, read_outcome, read_series, run_of_state,
 };
 pub use system::process::{peak_memory, reset_peak_memory};
 pub use system::{UNFINISHED, directory_of, write_atomic};

@@ -5,7 +5,7 @@ use std::thread;
 
 use serde_json::Value;
 
-use crate::case::{Case, CaseError, Sweep, collect_keys};
+use crate::case::{CaseError, Sweep, collect_keys};
 
 /// Tables and keys of a case at its top that change nothing of what is computed.
 pub(super) const IRRELEVANT: [&str; 7] =
@@ -19,8 +19,10 @@ pub(super) fn keys_of(case: &Value) -> BTreeMap<String, String> {
             collect_keys(name.clone(), value, &mut keys);
         }
     }
-    // A mesh is known by its checksum, wherever it lies
-    keys.remove("domain.mesh.file");
+    // A mesh is known by its checksum, wherever it lies; files of a soft case lie beside what its run writes
+    for file in ["domain.mesh.file", "record.file", "solid.0.mesh.file"] {
+        keys.remove(file);
+    }
     keys
 }
 
@@ -34,9 +36,14 @@ pub(super) fn hash_of(text: &str) -> Option<String> {
     Some(format!("crc32:{:08x}", hasher.finalize()))
 }
 
-/// The checksum of a case as its run writes it.
-fn hash_of_case(case: &Case) -> Option<String> {
-    hash_of(&case.to_toml().ok()?)
+/// The checksum of the case of a point as its run writes it.
+fn hash_of_point(sweep: &Sweep, index: usize) -> Result<Option<String>, CaseError> {
+    let text = if sweep.is_soft() {
+        toml::to_string_pretty(&sweep.soft_case(index)?.case).ok()
+    } else {
+        sweep.case(index)?.case().to_toml().ok()
+    };
+    Ok(text.and_then(|text| hash_of(&text)))
 }
 
 /// The checksums of all points of a sweep.
@@ -47,7 +54,7 @@ pub fn hashes_of(sweep: &Sweep) -> Result<Vec<String>, CaseError> {
     let n = sweep.n_points();
     let n_threads = thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let per_thread = n.div_ceil(n_threads).max(1);
-    let hash = |index| Ok(hash_of_case(sweep.case(index)?.case()).unwrap_or_default());
+    let hash = |index| Ok(hash_of_point(sweep, index)?.unwrap_or_default());
     thread::scope(|scope| {
         let parts = (0..n).step_by(per_thread).map(|first| first..(first + per_thread).min(n));
         let workers: Vec<_> =

@@ -9,9 +9,9 @@ use serde_json::Value;
 use super::directory::SweepDirectory;
 use super::point_state::{PointState, Stand, stand};
 use crate::case::{Case, CaseError, SweepQuantity, suggestion};
-use crate::observer::{COMPARISON_FILE, read_outcome};
+use crate::observer::{COMPARISON_FILE, Status, read_outcome};
 use crate::run::RunSummary;
-use crate::validation::measured_value;
+use crate::validation::{Verdict, measured_in_whole, measured_value};
 
 /// One row of the table, by the names of its columns.
 #[derive(Debug, Default)]
@@ -147,9 +147,10 @@ fn row(run: &Path, quantities: &[SweepQuantity]) -> io::Result<Row> {
     let mut cells = Cells::default();
     if !quantities.is_empty() {
         let outcome = read_outcome(run).map_err(|error| in_run(&error))?;
-        let case = case_of(run).map_err(|error| in_run(&error))?;
+        let has_flow = Status::read(run)?.fidelity.is_none();
+        let case = has_flow.then(|| case_of(run)).transpose().map_err(|error| in_run(&error))?;
         for wanted in quantities {
-            cells.add(&wanted.statistic.label(), measured(&outcome, &case, wanted));
+            cells.add(&wanted.statistic.label(), measured(&outcome, case.as_ref(), wanted));
         }
     } else if references.0.is_empty() {
         let RunSummary { series, .. } = read_outcome(run).map_err(|error| in_run(&error))?;
@@ -166,8 +167,11 @@ fn case_of(run: &Path) -> Result<Case, CaseError> {
 }
 
 /// A quantity of a run by its statistic; nothing where it cannot be taken.
-fn measured(outcome: &RunSummary, case: &Case, wanted: &SweepQuantity) -> String {
-    let value = measured_value(&outcome.series, case, &wanted.statistic);
+fn measured(outcome: &RunSummary, case: Option<&Case>, wanted: &SweepQuantity) -> String {
+    let value = match case {
+        Some(case) => measured_value(&outcome.series, case, &wanted.statistic),
+        None => measured_in_whole(&outcome.series, &wanted.statistic),
+    };
     value.map_or_else(|_| String::new(), number)
 }
 
@@ -179,6 +183,14 @@ fn compared(run: &Path) -> io::Result<Cells> {
         text => text?,
     };
     let all: Value = serde_json::from_slice(&text)?;
+    // Of a soft case, the values at the end
+    for row in all.as_array().into_iter().flatten() {
+        let label = row["quantity"].as_str().unwrap_or_default();
+        let is_within = row["within"].as_bool().unwrap_or_default();
+        let verdict = if is_within { Verdict::Within } else { Verdict::Outside };
+        cells.add(label, row["computed"].as_f64().map_or_else(String::new, number));
+        cells.add(&format!("{label} verdict"), verdict.name().to_owned());
+    }
     for row in all["comparisons"].as_array().into_iter().flatten() {
         let text = |key: &str| row[key].as_str().unwrap_or_default();
         let minus = row["minus"].as_str().map_or_else(String::new, |minus| format!(" - {minus}"));

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::case_hash::keys_of;
-use crate::case::{Case, Sweep};
+use super::directory::SweepDirectoryError;
+use crate::case::Sweep;
 
 /// Differences that a message lists at most.
 const MOST_LISTED: usize = 12;
@@ -34,13 +35,18 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan of a sweep whose first point is a case, without the checksums of its cases.
+    /// The plan of a sweep, without the checksums of its cases.
     ///
     /// # Errors
-    /// When the case cannot be written.
-    pub fn new(sweep: &Sweep, first: &Case) -> Result<Self, serde_json::Error> {
+    /// When the case of its first point is wrong, or cannot be written.
+    pub fn new(sweep: &Sweep) -> Result<Self, SweepDirectoryError> {
         let swept: Vec<String> = sweep.keys().into_iter().map(str::to_owned).collect();
-        let mut keys = keys_of(&serde_json::to_value(first)?);
+        let first = if sweep.is_soft() {
+            serde_json::to_value(sweep.soft_case(0)?.case)
+        } else {
+            serde_json::to_value(sweep.case(0)?.case())
+        };
+        let mut keys = keys_of(&first.map_err(std::io::Error::from)?);
         keys.retain(|key, _| !swept.iter().any(|swept| is_within(key, swept)));
         Ok(Self {
             alewife: env!("CARGO_PKG_VERSION").to_owned(),

@@ -14,7 +14,7 @@ pub use evidence::Evidence;
 pub use page::ReportPage;
 pub use report::{comparison_table, comparisons_to_json, count_table, summary};
 pub use section::{CaseReport, Companion, Links, MemberReport};
-pub use statistic::{StatisticError, measured_value};
+pub use statistic::{StatisticError, measured_in_whole, measured_value};
 pub use uncertainty::{
     MeshSize, Refinement, RunSize, coarser_settings, no_companion, raise_coincidences,
     set_uncertainties,

@@ -247,11 +247,14 @@ impl UntypedCase {
         &self.names[1]
     }
 
+    /// Reads its sweep to find what is wrong in it.
+    pub fn check_sweep(&self) -> Result<(), CaseError> {
+        self.sweep.as_ref().map_or(Ok(()), |sweep| spec::read(sweep).map(drop).map_err(wrong))
+    }
+
     /// Types it; a sweep is read to find what is wrong in it, and left out.
     pub fn typed(mut self) -> Result<CaseFile, CaseError> {
-        if let Some(sweep) = &self.sweep {
-            spec::read(sweep).map_err(wrong)?;
-        }
+        self.check_sweep()?;
         outline_file::resolve(&mut self.root).map_err(wrong)?;
         seed_file::resolve(&mut self.root).map_err(wrong)?;
         probe_line::resolve(&mut self.root).map_err(wrong)?;

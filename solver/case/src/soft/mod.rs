@@ -8,5 +8,6 @@ pub mod solid;
 pub mod spec;
 
 pub use parameters::{KeyError, ParameterKey};
+pub(crate) use read::is_soft;
 pub use read::{BesideFile, SoftFile, schema};
 pub use rules::check;

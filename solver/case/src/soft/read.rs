@@ -17,7 +17,8 @@ use crate::text::type_error::Mismatch;
 pub struct SoftFile {
     /// The case, with `extends` and settings applied.
     pub case: SoftCase,
-    /// Name: that of the file, or of its directory if the file is `case.toml`.
+    /// Name: that of the file, or of its directory if the file is `case.toml`, with the variant behind it:
+    /// `starfish/soft`.
     pub name: String,
     /// Name of the file that was read.
     pub file: String,
@@ -43,14 +44,14 @@ pub fn schema() -> &'static str {
     include_str!("../../alewife.soft.schema.json")
 }
 
-/// Whether what an argument names has the table `[soft]`.
-fn is_soft(root: &TomlNode) -> bool {
+/// Whether a case has the table `[soft]`.
+pub(crate) fn is_soft(root: &TomlNode) -> bool {
     root.get("soft").is_some_and(|table| table.table().is_some())
 }
 
 impl SoftFile {
-    /// Reads a soft case: a path to a TOML file or the name of a shipped case; then sets `KEY=VALUE` for each of
-    /// `settings`. None where it is a case of the full solver.
+    /// Reads a soft case: a path to a TOML file, the name of a shipped case, or either followed by `/VARIANT`; then
+    /// sets `KEY=VALUE` for each of `settings`. None where it is a case of the full solver.
     ///
     /// # Errors
     /// [`CaseError`]: no such case, a file that cannot be read, or all that is wrong in it.
@@ -74,9 +75,17 @@ impl SoftFile {
         })
     }
 
-    fn typed(untyped: UntypedCase) -> Result<Self, CaseError> {
-        let file = untyped.file().to_owned();
-        let UntypedCase { mut root, names: [name, _], .. } = untyped;
+    /// The name as that of a directory: `starfish-soft`.
+    #[must_use]
+    pub fn directory_name(&self) -> String {
+        self.name.replace('/', "-")
+    }
+
+    /// Types it; a sweep is read to find what is wrong in it, and left out.
+    pub(crate) fn typed(untyped: UntypedCase) -> Result<Self, CaseError> {
+        untyped.check_sweep()?;
+        let (file, name) = (untyped.file().to_owned(), untyped.full_name());
+        let UntypedCase { mut root, .. } = untyped;
         surfaces(&mut root).map_err(wrong)?;
         let case = SoftCase::deserialize(&root).map_err(|error| {
             let path = error.path();
@@ -180,6 +189,18 @@ mod tests {
     fn the_schema_is_that_of_soft_cases() {
         let mut derived = schemars::schema_for!(SoftCase).to_value();
         derived["title"] = "alewife soft case".into();
+        // What reading alone knows
+        derived["properties"]["extends"] = serde_json::json!({
+            "type": "string",
+            "description": "The case this one starts from: the relative path of a case file, or the name of a \
+                            shipped case. Tables are merged, everything else is replaced; reference, variant and \
+                            sweep are not inherited.",
+        });
+        derived["properties"]["sweep"] = serde_json::json!({
+            "type": "object",
+            "description": "What `alewife sweep` varies, as in other cases: `grid`, `zip`, `list`, \
+                            `latin-hypercube`, and `quantities`, columns of `series.csv`.",
+        });
         let text = format!("{derived:#}\n");
         if env::var_os("ALEWIFE_UPDATE").is_some() {
             let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("alewife.soft.schema.json");

@@ -1,5 +1,7 @@
 //! `SoftCase`: what the file of a soft case declares.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::search::{Calibration, Optimisation, Robot};
@@ -46,6 +48,41 @@ pub struct SoftCase {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub robot: Option<Robot>,
     /// What runs and searches are compared with.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reference: Vec<SoftReference>,
+    /// The same case with some keys set.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variant: Vec<SoftVariant>,
+}
+
+impl SoftCase {
+    /// Names of the columns of `series.csv` behind the time: places and velocities of markers, energies and work.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<String> {
+        let axes = &["x", "y", "z"][..self.geometry.dimensions()];
+        let of_marker = |marker: &Marker| {
+            let name = &marker.name;
+            let places = axes.iter().map(move |axis| format!("{name}.{axis}"));
+            let velocities = axes.iter().map(move |axis| format!("{name}.velocity.{axis}"));
+            places.chain(velocities).collect::<Vec<_>>()
+        };
+        let of_body = ["energy.kinetic", "energy.elastic", "work"].map(str::to_owned);
+        self.marker.iter().flat_map(of_marker).chain(of_body).collect()
+    }
+}
+
+/// `[[variant]]`: the same case with some keys set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct SoftVariant {
+    /// Name; `alewife run CASE/NAME --fidelity soft` runs it.
+    pub name: String,
+    /// Keys to set, written as on the command line: `"solid.0.material.young" = 2e4`.
+    #[serde(default)]
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, serde_json::Value>"))]
+    pub set: BTreeMap<String, toml::Value>,
+    /// Its references, besides those of the case.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reference: Vec<SoftReference>,
 }

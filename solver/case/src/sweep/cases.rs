@@ -14,6 +14,7 @@ use crate::model::numbers::reynolds;
 use crate::read::case_text::{Located, locate};
 use crate::read::files::calibrated_file;
 use crate::read::{CaseFile, UntypedCase, wrong};
+use crate::soft::{self, SoftFile, is_soft};
 use crate::spec::fluid::viscosity::ViscositySpec;
 use crate::text::diagnostic::CaseError;
 use crate::text::setting;
@@ -157,12 +158,7 @@ impl Sweep {
     /// # Errors
     /// [`CaseError::Wrong`] with what is wrong in it.
     pub fn case(&self, index: usize) -> Result<CaseFile, CaseError> {
-        let mut untyped = self.untyped.clone();
-        let before = untyped.root.get("reduced").cloned();
-        for PointSetting { path, value } in self.point(index).settings {
-            untyped.root.set(&path, value).map_err(wrong)?;
-        }
-        calibrated_file::laid_over(before.as_ref(), &mut untyped.root).map_err(wrong)?;
+        let mut untyped = self.set(index)?;
         if !self.keys().contains(&REYNOLDS) || self.keys().contains(&VISCOSITY) {
             return untyped.typed();
         }
@@ -172,6 +168,40 @@ impl Sweep {
         let node = TomlNode { value: TomlValue::Float(value), ..node };
         untyped.root.set(VISCOSITY, node).map_err(wrong)?;
         untyped.typed()
+    }
+
+    /// Whether it is of a soft case, an elastic body without a flow.
+    #[must_use]
+    pub fn is_soft(&self) -> bool {
+        is_soft(&self.untyped.root)
+    }
+
+    /// The soft case of a point, typed and not checked.
+    ///
+    /// # Errors
+    /// [`CaseError::Wrong`] with what is wrong in it.
+    pub fn soft_case(&self, index: usize) -> Result<SoftFile, CaseError> {
+        SoftFile::typed(self.set(index)?)
+    }
+
+    /// The case of a point, not typed yet.
+    fn set(&self, index: usize) -> Result<UntypedCase, CaseError> {
+        let mut untyped = self.untyped.clone();
+        let before = untyped.root.get("reduced").cloned();
+        for PointSetting { path, value } in self.point(index).settings {
+            untyped.root.set(&path, value).map_err(wrong)?;
+        }
+        calibrated_file::laid_over(before.as_ref(), &mut untyped.root).map_err(wrong)?;
+        Ok(untyped)
+    }
+
+    /// What is wrong in a soft case of the sweep, with quantities to collect that its run does not have.
+    #[must_use]
+    pub fn check_soft(&self, file: &SoftFile) -> Vec<Diagnostic> {
+        let known = file.case.quantities();
+        let mut found = soft::check(file);
+        found.extend(self.quantities.iter().filter_map(|one| one.mistake_among(&known)));
+        found
     }
 
     /// What is wrong in a case of the sweep: all that [`check`](crate::check) finds, and quantities to

@@ -56,15 +56,20 @@ impl SweepQuantity {
     /// Why a run of a case has no such quantity; nothing if it has.
     pub(crate) fn mistake(&self, model: &Model) -> Option<Diagnostic> {
         let known = known_quantities(model);
+        let mut found = self.mistake_among(&known)?;
+        if is_of_a_side(model, &self.statistic.quantity) {
+            "quantities of sides need output.sides = true".clone_into(&mut found.help);
+        }
+        Some(found)
+    }
+
+    /// The same where a run has these quantities.
+    pub(crate) fn mistake_among(&self, known: &[String]) -> Option<Diagnostic> {
         if known.contains(&self.statistic.quantity) {
             return None;
         }
         let message = format!("a run has no quantity `{}`", self.statistic.quantity);
-        let help = if is_of_a_side(model, &self.statistic.quantity) {
-            "quantities of sides need output.sides = true".to_owned()
-        } else {
-            suggestion(&self.statistic.quantity, &known)
-        };
+        let help = suggestion(&self.statistic.quantity, known);
         let mut diagnostic = Diagnostic::error("sweep.quantities", message, &help);
         diagnostic.location = self.origin.as_ref().map(Origin::location);
         Some(diagnostic)

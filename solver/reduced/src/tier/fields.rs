@@ -16,8 +16,9 @@ use crate::soft::Trajectory;
 /// Files of a motion at most.
 const MOST: usize = 60;
 
-/// Writes `fields/frame-NNNN.vtu` and `fields.pvd` below a directory: places and velocities of the body at up to
-/// sixty frames, on quadratic cells, and the mean pressures of cells where some keep their volume.
+/// Writes `fields/frame-NNNN.vtu` and `fields.pvd` below a directory: the body at up to sixty frames, on quadratic
+/// cells where they are, with displacements from rest (m) and velocities (m/s) at nodes. Cells have their mean
+/// equivalent strain, their mean volume ratio, and where some keep their volume, their mean pressure (Pa).
 ///
 /// # Errors
 /// What the file system reports.
@@ -33,6 +34,7 @@ where
     fs::create_dir_all(&folder)?;
     let own = &model.body.solid.spec().mesh;
     let topology = topology(own);
+    let rest = quadratic(own, &model.body.solid.at_rest()[..model.body.solid.n_places()]);
     let plan = &model.plan;
     let n_frames = plan.targets.len();
     let every = n_frames.div_ceil(MOST).max(1);
@@ -44,23 +46,42 @@ where
         let time = frame as f64 * plan.frame;
         let solid = &model.body.solid;
         let n_places = solid.n_places();
-        let velocities: Vec<f64> = quadratic(own, &level.velocities[..n_places])
-            .iter()
-            .flat_map(|v| v.iter().copied().collect::<Vec<_>>())
-            .collect();
-        let mesh = Mesh::new(quadratic(own, &level.places[..n_places]), topology.clone());
+        let velocities = flat(&quadratic(own, &level.velocities[..n_places]));
+        let places = quadratic(own, &level.places[..n_places]);
+        let moved: Vec<Point<D>> = places.iter().zip(&rest).map(|(x, rest)| x - rest).collect();
+        let displacements = flat(&moved);
+        let mesh = Mesh::new(places, topology.clone());
         let name = format!("fields/frame-{frame:04}.vtu");
-        let velocity = Array::new("velocity", D, &velocities);
+        let at_nodes =
+            [Array::new("displacement", D, &displacements), Array::new("velocity", D, &velocities)];
+        let strains = solid.equivalent_strains(&level.places);
+        let volumes = solid.volume_ratios(&level.places);
         let pressures = solid.pressures(&level.places);
-        let pressure = [Array::new("pressure", 1, &pressures)];
-        let pressure = if solid.pressure_nodes().is_empty() { &[] } else { &pressure[..] };
+        let in_cells = [
+            Array::new("strain", 1, &strains),
+            Array::new("volume-ratio", 1, &volumes),
+            Array::new("pressure", 1, &pressures),
+        ];
+        let n = if solid.pressure_nodes().is_empty() { 2 } else { 3 };
         let mut bytes = Vec::new();
-        write_vtu(&mut bytes, &mesh, Some(time), &[velocity], pressure)?;
+        write_vtu(&mut bytes, &mesh, Some(time), &at_nodes, &in_cells[..n])?;
         write_whole(&directory.join(&name), bytes)?;
         let _ = writeln!(list, "<DataSet timestep=\"{time}\" file=\"{name}\"/>");
     }
     list += "</Collection>\n</VTKFile>\n";
     write_whole(&directory.join("fields.pvd"), list)
+}
+
+/// The mesh of a body at rest, on quadratic cells, in files' order.
+#[must_use]
+pub fn rest_mesh<const D: usize>(model: &Model<D>) -> Mesh<D> {
+    let own = &model.body.solid.spec().mesh;
+    Mesh::new(own.quadratic().nodes, topology(own))
+}
+
+/// Components of all points in one list.
+fn flat<const D: usize>(points: &[Point<D>]) -> Vec<f64> {
+    points.iter().flat_map(|point| point.iter().copied().collect::<Vec<_>>()).collect()
 }
 
 /// Values at all nodes of the quadratic mesh: of a linear one, means at the middles of its edges.

@@ -17,7 +17,7 @@ mod surface;
 
 pub use compare::{Compared, compare};
 pub use evaluate::{Kind, Seeker, WayAndWork};
-pub use fields::write_fields;
+pub use fields::{rest_mesh, write_fields};
 pub use job::{Job, JobResult, Which};
 pub use mesh::{Bodies, SolidOf};
 pub use model::{Model, TierError};

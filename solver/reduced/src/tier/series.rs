@@ -44,13 +44,7 @@ where
     Bodies: SolidOf<D>,
 {
     let Model { case, body, plan, nodes, .. } = model;
-    let axes = ["x", "y", "z"];
-    let mut names = vec!["time".to_owned()];
-    for marker in &case.marker {
-        names.extend(axes[..D].iter().map(|axis| format!("{}.{axis}", marker.name)));
-        names.extend(axes[..D].iter().map(|axis| format!("{}.velocity.{axis}", marker.name)));
-    }
-    names.extend(["energy.kinetic", "energy.elastic", "work"].map(str::to_owned));
+    let names = ["time".to_owned()].into_iter().chain(case.quantities()).collect();
     let at_rest = vec![1.0; body.solid.spec().fibres.len()];
     let mut rows = Vec::new();
     let mut work = 0.0;

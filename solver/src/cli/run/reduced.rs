@@ -5,15 +5,22 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::print_comparisons;
-use crate::case::{Case, CaseFile, Severity, check, check_reduced, significant};
+use crate::case::{Case, CaseFile, Severity, TimeSettings, check, check_reduced, significant};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::print_warnings;
+use crate::cli::soft::hold;
 use crate::cli::style::say;
-use crate::observer::write_atomic;
+use crate::observer::{Motion, MotionRecord, RunLock, Status, write_atomic};
 use crate::reduced::{ReducedError, simulate};
 use crate::run::Series;
 use crate::runner::recording;
 use crate::validation::compare_series;
+
+/// The model, by its name on the command line.
+const MODEL: &str = "reduced";
+
+/// The file that is written last.
+const SERIES: &str = "series.csv";
 
 /// What a run by the reduced model is asked for.
 pub struct Request<'a> {
@@ -52,17 +59,33 @@ pub fn run(request: &Request<'_>) -> Result<Exit, Failure> {
         }
     }
     let out = directory(request, &file)?;
+    let failed = |error: std::io::Error| {
+        Failure::new(Exit::InputOutput, format!("{}: {error}", out.display()))
+    };
+    let _held = begin(&out, &file)?;
+    let end = match &file.case().time {
+        TimeSettings::Unsteady(settings) => settings.end,
+        TimeSettings::Steady(_) => 0.0,
+    };
+    let run = Motion { fidelity: MODEL, steps: 0, end, dofs: 0 };
+    let record = MotionRecord::begin(&out, &run).map_err(failed)?;
     let begun = Instant::now();
-    let series = simulate(&file.model).map_err(|error| {
-        let exit = match error {
-            ReducedError::Unknown(_) => Exit::BadCase,
-            ReducedError::Tree(_) => Exit::Diverged,
-        };
-        Failure::new(exit, error.to_string())
-    })?;
+    let series = match simulate(&file.model) {
+        Ok(series) => series,
+        Err(error) => {
+            let exit = match error {
+                ReducedError::Unknown(_) => Exit::BadCase,
+                ReducedError::Tree(_) => Exit::Diverged,
+            };
+            record.fail(&error.to_string()).map_err(failed)?;
+            return Err(Failure::new(exit, error.to_string()));
+        }
+    };
     let seconds = begun.elapsed().as_secs_f64();
-    write(&out, &file, &series)
-        .map_err(|error| Failure::new(Exit::InputOutput, format!("{}: {error}", out.display())))?;
+    write(&out, &series).map_err(failed)?;
+    let steps = series.times.len().saturating_sub(1);
+    let end = series.times.last().copied().unwrap_or(end);
+    record.finish(&Motion { steps, end, ..run }).map_err(failed)?;
     report(&file, &series);
     // References of a case with a mesh are those of its flow
     let is_compared = file.case().is_reduced_only() && !file.case().reference.is_empty();
@@ -89,19 +112,33 @@ fn directory(request: &Request<'_>, file: &CaseFile) -> Result<PathBuf, Failure>
     let default = || Path::new("runs").join(file.full_name().replace('/', "-") + "-reduced");
     let out = request.out.map_or_else(default, Path::to_path_buf);
     let refuse = |what: &str| Err(Failure::new(Exit::Usage, format!("{} {what}", out.display())));
-    if out.join("status.json").exists() || out.join("checkpoints").exists() {
-        return refuse("holds a run of the full solver; choose another directory with --out");
+    let is_ours = Status::read(&out).is_ok_and(|status| status.fidelity.as_deref() == Some(MODEL));
+    if (out.join("status.json").exists() && !is_ours) || out.join("checkpoints").exists() {
+        return refuse("holds a run of another model; choose another directory with --out");
     }
-    if out.join("series.csv").exists() && !request.overwrite {
+    if out.join(SERIES).exists() && !request.overwrite {
         return refuse("holds a run; --overwrite it, or choose another directory with --out");
     }
     Ok(out)
 }
 
-fn write(out: &Path, file: &CaseFile, series: &Series) -> std::io::Result<()> {
-    std::fs::create_dir_all(out)?;
-    let text = file.case().to_toml().map_err(std::io::Error::other)?;
-    write_atomic(&out.join("case.toml"), text.as_bytes())?;
+/// Holds the directory, with the case in it and without the series of an earlier run.
+fn begin(out: &Path, file: &CaseFile) -> Result<RunLock, Failure> {
+    let held = hold(out)?;
+    let ready = || {
+        let text = file.case().to_toml().map_err(std::io::Error::other)?;
+        match std::fs::remove_file(out.join(SERIES)) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        write_atomic(&out.join("case.toml"), text.as_bytes())
+    };
+    ready()
+        .map_err(|error| Failure::new(Exit::InputOutput, format!("{}: {error}", out.display())))?;
+    Ok(held)
+}
+
+fn write(out: &Path, series: &Series) -> std::io::Result<()> {
     let mut text = String::from("time");
     for name in &series.names {
         text.push(',');
@@ -116,7 +153,7 @@ fn write(out: &Path, file: &CaseFile, series: &Series) -> std::io::Result<()> {
         }
         text.push('\n');
     }
-    write_atomic(&out.join("series.csv"), text.as_bytes())
+    write_atomic(&out.join(SERIES), text.as_bytes())
 }
 
 /// What the swimmers did in the end, or the bodies where there is none.

@@ -186,8 +186,9 @@ fn run_soft(options: &Options) -> Result<Exit, Failure> {
         out: options.out.clone(),
         overwrite: options.overwrite,
         compares: !options.no_references,
+        lock: None,
     };
-    soft::run(&file, &place)
+    soft::run(&file, place)
 }
 
 /// Runs a case by the full solver.

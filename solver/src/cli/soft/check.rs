@@ -36,6 +36,17 @@ pub fn show(file: &SoftFile) -> Result<Exit, Failure> {
             let _ = writeln!(text, "has [{title}]");
         }
     }
+    for variant in &case.variant {
+        let set: Vec<String> =
+            variant.set.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+        let _ = writeln!(
+            text,
+            "variant {}/{}: {}",
+            printable(&file.name),
+            printable(&variant.name),
+            printable(&set.join(", "))
+        );
+    }
     for reference in &case.reference {
         let _ = writeln!(
             text,

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::cli::exit::{Exit, Failure};
-use crate::observer::{LockError, RunLock};
+use crate::observer::{LockError, RunLock, Status};
 
 /// What a file could not be written for.
 pub fn not_written(directory: &Path, error: &io::Error) -> Failure {
@@ -17,12 +17,18 @@ pub fn not_written(directory: &Path, error: &io::Error) -> Failure {
 pub fn prepare(directory: &Path, endings: [&str; 2], overwrite: bool) -> Result<RunLock, Failure> {
     check(directory, endings, overwrite)?;
     let held = hold(directory)?;
+    make_ready(directory, endings, overwrite)?;
+    Ok(held)
+}
+
+/// The same of a directory that this process holds already.
+pub fn make_ready(directory: &Path, endings: [&str; 2], overwrite: bool) -> Result<(), Failure> {
     // Another process may have come to its end since
     check(directory, endings, overwrite)?;
     if overwrite {
         clear(directory, endings).map_err(|error| not_written(directory, &error))?;
     }
-    Ok(held)
+    Ok(())
 }
 
 /// Holds a directory, which is made if it is not there.
@@ -54,6 +60,7 @@ fn check(directory: &Path, [last, journals]: [&str; 2], overwrite: bool) -> Resu
     // What was stopped on its way has left a journal or fields
     let is_ours = directory.join(last).exists()
         || directory.join("fields.pvd").exists()
+        || Status::read(directory).is_ok_and(|status| status.fidelity.is_some())
         || has_ending(directory, journals);
     if directory.join("case.toml").exists() && !is_ours {
         let message = format!(

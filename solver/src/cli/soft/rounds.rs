@@ -56,7 +56,7 @@ fn turns<const D: usize>(file: &SoftFile, options: &LoopOptions) -> Result<Exit,
 where
     Bodies: SolidOf<D>,
 {
-    let default = || Path::new("runs").join(format!("{}-loop", file.name));
+    let default = || Path::new("runs").join(format!("{}-loop", file.directory_name()));
     let out = options.out.clone().unwrap_or_else(default);
     let mut rounds = Rounds::<D>::new(file)?;
     let mut robot = Perturbed::<D>::new(file)?;

@@ -4,20 +4,24 @@ use std::path::{Path, PathBuf};
 
 use alewife_reduced::search::write_whole;
 use alewife_reduced::tier::{
-    Bodies, Compared, Model, SolidOf, compare, series, write_case, write_fields,
+    Bodies, Compared, Model, SolidOf, TierError, compare, series, write_case, write_fields,
 };
 
-use super::directory::{not_written, prepare};
+use super::directory::{make_ready, not_written, prepare};
 use crate::case::soft::SoftFile;
 use crate::case::soft::spec::ReferenceOf;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::style::{complain, say};
+use crate::observer::{Motion, MotionRecord, RunLock};
+
+/// The model, by its name on the command line.
+const MODEL: &str = "soft";
 
 /// The file that is written last.
 const LAST: &str = "comparison.json";
 
 /// Where a run goes.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Place {
     /// Its directory; `runs/<case>` if absent.
     pub out: Option<PathBuf>,
@@ -25,37 +29,56 @@ pub struct Place {
     pub overwrite: bool,
     /// Whether references are compared with.
     pub compares: bool,
+    /// The directory, if this process holds it already.
+    pub lock: Option<RunLock>,
 }
 
 /// Runs a soft case.
-pub fn run(file: &SoftFile, place: &Place) -> Result<Exit, Failure> {
+pub fn run(file: &SoftFile, place: Place) -> Result<Exit, Failure> {
     match file.case.geometry.dimensions() {
         2 => moved::<2>(file, place),
         _ => moved::<3>(file, place),
     }
 }
 
-fn moved<const D: usize>(file: &SoftFile, place: &Place) -> Result<Exit, Failure>
+fn moved<const D: usize>(file: &SoftFile, place: Place) -> Result<Exit, Failure>
 where
     Bodies: SolidOf<D>,
 {
-    let default = || Path::new("runs").join(&file.name);
-    let out = place.out.clone().unwrap_or_else(default);
+    let Place { out, overwrite, compares, lock } = place;
+    let out = out.unwrap_or_else(|| Path::new("runs").join(file.directory_name()));
     let model = Model::<D>::new(file)?;
-    let _held = prepare(&out, [LAST, "vtu"], place.overwrite)?;
-    let motion = Bodies::simulate(&model.body, &model.plan)
-        .map_err(alewife_reduced::tier::TierError::from)?;
-    let table = series(&model, &motion).map_err(alewife_reduced::tier::TierError::from)?;
-    let compared = if place.compares {
+    let endings = [LAST, "vtu"];
+    let _held = match lock {
+        Some(lock) => make_ready(&out, endings, overwrite).map(|()| lock)?,
+        None => prepare(&out, endings, overwrite)?,
+    };
+    let failed = |error: std::io::Error| not_written(&out, &error);
+    write_case(&out, file, &file.case).map_err(failed)?;
+    let steps = model.plan.n_steps();
+    let end = model.plan.targets.len() as f64 * model.plan.frame;
+    let dofs = model.body.solid.n_unknowns();
+    let run = Motion { fidelity: MODEL, steps, end, dofs };
+    let record = MotionRecord::begin(&out, &run).map_err(failed)?;
+    let made = Bodies::simulate(&model.body, &model.plan)
+        .and_then(|motion| Ok((series(&model, &motion)?, motion)));
+    let (table, motion) = match made {
+        Ok(made) => made,
+        Err(error) => {
+            let failure = Failure::from(TierError::from(error));
+            record.fail(&failure.message).map_err(failed)?;
+            return Err(failure);
+        }
+    };
+    let compared = if compares {
         compare(&file.case, ReferenceOf::Run, &|name| table.last(name))
     } else {
         Vec::new()
     };
-    let failed = |error: std::io::Error| not_written(&out, &error);
-    write_case(&out, file, &file.case).map_err(failed)?;
     write_fields(&out, &model, &motion).map_err(failed)?;
     write_whole(&out.join("series.csv"), table.to_csv()).map_err(failed)?;
     write_comparison(&out, &compared)?;
+    record.finish(&run).map_err(failed)?;
     print(&compared);
     if compared.is_empty() {
         for (name, value) in table.names.iter().zip(table.rows.last().into_iter().flatten()) {
@@ -63,9 +86,7 @@ where
         }
     }
     say(&format!(
-        "{} unknowns, {} steps, {} factorisations; written to {}",
-        model.body.solid.n_unknowns(),
-        model.plan.n_steps(),
+        "{dofs} unknowns, {steps} steps, {} factorisations; written to {}",
         motion.n_factors,
         out.display()
     ));

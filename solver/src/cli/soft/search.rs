@@ -82,7 +82,7 @@ fn sought<const D: usize>(
 where
     Bodies: SolidOf<D>,
 {
-    let default = || Path::new("runs").join(format!("{}-{}", file.name, which.name()));
+    let default = || Path::new("runs").join(format!("{}-{}", file.directory_name(), which.name()));
     let out = options.out.clone().unwrap_or_else(default);
     let job = Job::<D>::new(file, which)?;
     let _held = prepare(&out, [LAST, "journal"], options.overwrite)?;

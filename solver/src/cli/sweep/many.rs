@@ -116,8 +116,7 @@ fn n_jobs(asked: Option<usize>, n_threads: usize) -> Result<usize, Failure> {
 }
 
 fn directory(options: &Options, sweep: &Sweep) -> Result<SweepDirectory, Failure> {
-    let first = sweep.case(0)?;
-    let plan = Plan::new(sweep, first.case()).map_err(std::io::Error::from)?;
+    let plan = Plan::new(sweep)?;
     Ok(SweepDirectory::create(&directory_of(options.out.as_ref(), sweep), plan, sweep)?)
 }
 

@@ -11,6 +11,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::parent;
 use crate::cli::read::print_warnings;
 use crate::cli::run::run_plan;
+use crate::cli::soft;
 use crate::cli::style::{complain, say};
 use crate::observer::{LockError, RunDirectory, RunDirectoryError, RunLock};
 use crate::runner::RunPlan;
@@ -31,9 +32,7 @@ pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
     if options.parent.is_none() {
         print_warnings(&warnings);
     }
-    let file = sweep.case(index)?;
-    let first = if index == 0 { file.clone() } else { sweep.case(0)? };
-    let plan = Plan::new(&sweep, first.case()).map_err(std::io::Error::from)?;
+    let plan = Plan::new(&sweep)?;
     let directory =
         SweepDirectory::create(&directory_of(options.out.as_ref(), &sweep), plan, &sweep)?;
     // Nobody else decides on the point from here on, until its failure is written, too
@@ -47,17 +46,24 @@ pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
         return Err(Failure::new(many::exit_of(failure), failure.line()));
     }
     PointFailure::forget(&directory, index)?;
-    let plan = RunPlan {
-        warnings,
-        lock: Some(lock),
-        threads: options.threads,
-        continues: true,
-        overwrite: before.has_failed_run(),
-        max_walltime: options.max_walltime,
-        quiet: options.quiet || options.parent.is_some(),
-        ..RunPlan::new(file, out)
+    let made = if sweep.is_soft() {
+        let lock = Some(lock);
+        let place = soft::Place { out: Some(out), overwrite: true, compares: true, lock };
+        sweep.soft_case(index).map_err(Failure::from).and_then(|file| soft::run(&file, place))
+    } else {
+        let plan = RunPlan {
+            warnings,
+            lock: Some(lock),
+            threads: options.threads,
+            continues: true,
+            overwrite: before.has_failed_run(),
+            max_walltime: options.max_walltime,
+            quiet: options.quiet || options.parent.is_some(),
+            ..RunPlan::new(sweep.case(index)?, out)
+        };
+        run_plan(&plan, "the same call again continues")
     };
-    run_plan(&plan, "the same call again continues").inspect_err(|failure| {
+    made.inspect_err(|failure| {
         if failure.exit != Exit::Stopped {
             let reason = failure.message.clone();
             let failure = PointFailure::new(Some(failure.exit as u8), reason);

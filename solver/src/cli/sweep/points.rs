@@ -54,6 +54,10 @@ pub fn check_points(sweep: &Sweep, points: Range<usize>) -> Result<Vec<Diagnosti
 type PointCheck = Result<Vec<Diagnostic>, Failure>;
 
 fn check(sweep: &Sweep, index: usize) -> PointCheck {
+    if sweep.is_soft() {
+        let found = sweep.check_soft(&sweep.soft_case(index)?);
+        return if found.is_empty() { Ok(found) } else { Err(Failure::wrong(&found)) };
+    }
     let file = sweep.case(index)?;
     let mut found = sweep.check(&file);
     found.extend(check_flow(&file));

@@ -46,7 +46,14 @@ pub fn split(names: &[String], only_quick: bool) -> Result<Split, Failure> {
     let mut split = Split { flows: Vec::new(), searched: Vec::new() };
     for name in names {
         match SoftFile::read_if_soft(name, &[]) {
-            Ok(Some(file)) if !only_quick => split.searched.push(Searched::Soft(Box::new(file))),
+            Ok(Some(file)) if !only_quick => {
+                let variants = file.case.variant.clone();
+                split.searched.push(Searched::Soft(Box::new(file)));
+                for variant in variants {
+                    let file = SoftFile::read(&format!("{name}/{}", variant.name), &[])?;
+                    split.searched.push(Searched::Soft(Box::new(file)));
+                }
+            }
             Ok(Some(_)) => {}
             Ok(None) if has_no_flow(name) => {
                 for member in members_of(name, only_quick)? {

@@ -3,6 +3,7 @@
 mod fields;
 mod found;
 mod known;
+mod motion;
 mod records;
 mod run;
 mod states;
@@ -14,7 +15,7 @@ use clap::{Args, ValueHint};
 
 use super::exit::{Exit, Failure};
 use super::style::say;
-use crate::observer::RunDirectory;
+use crate::observer::{RunDirectory, Status};
 use crate::sweep::PLAN_FILE;
 use found::Found;
 
@@ -27,7 +28,8 @@ Examples:
 
 Of a run: its case, with the checksum in provenance.json; status.json and the legs; that times in series.csv
 rise, and its rows are those of the states; that states can be read, and continue this case; that all fields
-of fields.pvd are there, whole and of this run; messages, comparison and log. Of a sweep: that each point is
+of fields.pvd are there, whole and of this run; messages, comparison and log. Of a run of a soft case or a reduced
+model: the same of what it has, and that there is a row of each frame or step. Of a sweep: that each point is
 the one of its place, all of that for each point, and the table. Points that are missing are counted.
 
 Exit codes: 0 all is sound; 65 something is not; 66 there is no run or sweep.")]
@@ -59,12 +61,18 @@ pub fn verify(options: &Options) -> Result<Exit, Failure> {
     Ok(if is_sound { Exit::Done } else { Exit::BadCase })
 }
 
+/// Looks at the run in a directory, by the model it was made with.
+fn one(directory: &Path) -> Found {
+    let model = Status::read(directory).ok().and_then(|status| status.fidelity);
+    model.map_or_else(|| run::verify(directory), |model| motion::verify(directory, &model))
+}
+
 fn look_at(directory: &Path) -> Result<Found, Failure> {
     if directory.join(PLAN_FILE).exists() {
         return Ok(sweep::verify(directory));
     }
     if RunDirectory::is_one(directory) {
-        return Ok(run::verify(directory));
+        return Ok(one(directory));
     }
     let reason = format!("{} is the directory of no run and no sweep", directory.display());
     Err(Failure::new(Exit::NoInput, reason))

@@ -37,7 +37,7 @@ pub fn verify(directory: &Path) -> Found {
     found
 }
 
-fn state(known: &Known) -> &'static str {
+pub(super) fn state(known: &Known) -> &'static str {
     let in_a_word = |status: &Status| status.state.in_a_word(known.is_under_way);
     known.status.as_ref().map_or("unknown", in_a_word)
 }
@@ -49,18 +49,18 @@ fn case(directory: &Path, found: &mut Found) -> Option<Case> {
     found.read("case.toml", read.map_err(|error| first_line(&error.to_string())))
 }
 
-fn first_line(text: &str) -> String {
+pub(super) fn first_line(text: &str) -> String {
     text.lines().next().unwrap_or_default().to_owned()
 }
 
 /// All whole rows; nothing where there is no such file.
-fn series(directory: &Path, found: &mut Found) -> Option<Series> {
+pub(super) fn series(directory: &Path, found: &mut Found) -> Option<Series> {
     let is_there = directory.join("series.csv").exists();
     is_there.then(|| found.read("series.csv", read_series(directory)))?
 }
 
 /// Legs follow each other, and the last one is of the case that is there.
-fn check_provenance(directory: &Path, known: &Known, found: &mut Found) {
+pub(super) fn check_provenance(directory: &Path, known: &Known, found: &mut Found) {
     let file = "provenance.json";
     let Some(Provenance { origin, legs }) = &known.provenance else { return };
     let [first, .., last] = &legs.iter().collect::<Vec<_>>()[..] else {
@@ -98,7 +98,7 @@ fn check_leg(directory: &Path, wanted: &str, found: &mut Found) {
 }
 
 /// Times rise, and none is later than the run.
-fn check_series(known: &Known, found: &mut Found) {
+pub(super) fn check_series(known: &Known, found: &mut Found) {
     let Some(series) = &known.series else {
         let is_wanted =
             known.case.as_ref().is_some_and(|case| case.output.series != Cadence::Never);
@@ -146,6 +146,11 @@ fn check_end(known: &Known, found: &mut Found) {
             format!("it is finished at time {time}, and the case ends at {end}"),
         );
     }
+    check_last_leg(known, found);
+}
+
+/// The last leg of a run that is finished has ended so.
+pub(super) fn check_last_leg(known: &Known, found: &mut Found) {
     let last = known.provenance.as_ref().and_then(|provenance| provenance.legs.last());
     if known.is_finished() && last.is_some_and(|leg| leg.end.as_deref() != Some("finished")) {
         found

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use super::found::Found;
-use super::run;
 use crate::case::SweepQuantity;
 use crate::observer::{RunDirectory, RunLock};
 use crate::sweep::{PointState, SweepDirectory, TABLE_FILE, collect, stand};
@@ -28,7 +27,7 @@ pub fn verify(directory: &Path) -> Found {
             found.wrong(&below, failure.reason);
         }
         if RunDirectory::is_one(&path) && !RunLock::is_held(&path, &[]) {
-            found.take_in(&below, run::verify(&path));
+            found.take_in(&below, super::one(&path));
         }
     }
     found.count("points", n);

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::motion_record::Motion;
 use super::read_back::History;
 use super::restarts::Restarts;
 use super::write_times::WriteTimes;
@@ -62,6 +63,9 @@ pub struct FirstRow {
 pub struct Status {
     /// Where the run stands.
     pub state: RunState,
+    /// The model of a run without a flow, by its name on the command line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fidelity: Option<String>,
     /// Why it stopped.
     pub reason: Option<String>,
     /// Accepted steps so far.
@@ -148,13 +152,31 @@ impl Status {
                 (steps, Some(settings.end))
             }
         };
+        Self { steps, end, ..Self::empty(step, time) }
+    }
+
+    /// That of a run without a flow which begins in this process.
+    #[must_use]
+    pub fn of_motion(motion: &Motion) -> Self {
+        Self {
+            fidelity: Some(motion.fidelity.to_owned()),
+            steps: Some(motion.steps).filter(|steps| *steps > 0),
+            end: Some(motion.end),
+            dofs: motion.dofs,
+            ..Self::empty(0, 0.0)
+        }
+    }
+
+    /// That of a run of which nothing is known but the steps made up to a time (s).
+    fn empty(step: usize, time: f64) -> Self {
         Self {
             state: RunState::Running,
+            fidelity: None,
             reason: None,
             step,
-            steps,
+            steps: None,
             time,
-            end,
+            end: None,
             dofs: 0,
             cpu_seconds: BTreeMap::new(),
             wall_seconds: BTreeMap::new(),

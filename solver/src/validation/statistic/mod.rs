@@ -68,6 +68,23 @@ pub fn measured_value(
     })
 }
 
+/// A statistic of a run without a flow, over the whole of its series: the last value where it is none of the largest
+/// and least one, the range, the mean over time and the root of that of the squares.
+///
+/// # Errors
+/// [`StatisticError`] when the run does not have the quantity.
+pub fn measured_in_whole(series: &Series, statistic: &Statistic) -> Result<f64, StatisticError> {
+    let curve = compared(series, statistic)?;
+    Ok(match statistic.kind {
+        StatisticKind::Max => curve.extremum(1.0).value,
+        StatisticKind::Min => curve.extremum(-1.0).value,
+        StatisticKind::Range => curve.extremum(1.0).value - curve.extremum(-1.0).value,
+        StatisticKind::Mean => curve.average_of_all(),
+        StatisticKind::Rms => curve.squared().average_of_all().sqrt(),
+        _ => curve.last(),
+    })
+}
+
 /// The quantity of a statistic, less the one that is subtracted.
 fn compared(series: &Series, statistic: &Statistic) -> Result<Curve, StatisticError> {
     let mut whole = Curve::of(series, &statistic.quantity)?;
