@@ -22,6 +22,6 @@ pub use pipeline::{run, write_comparisons};
 pub use plan::{Finished, Outcome, RunPlan, Stopped};
 pub use replay::recording;
 pub use session::{Checked, SessionPlan, checked, session, write_state};
-pub use signal::{SignalWatch, end_aborted_with, outlive_file_size_limit};
+pub use signal::{SignalWatch, end_aborted_with, ended_by_signal, outlive_file_size_limit};
 pub use simulate::{RunInto, simulate, simulate_afresh};
 pub use wall_limit::WallLimit;

@@ -96,6 +96,11 @@ impl Options {
         let out = self.out.clone().unwrap_or_else(default);
         RunPlan {
             threads: self.threads,
+    /// Whether the full solver runs, which sees to signals itself.
+    pub fn is_of_flow(&self) -> bool {
+        self.fidelity == Fidelity::Ale
+    }
+
             resume: self.resume.clone(),
             replay: self.replay.clone(),
             continues: self.continues,
