@@ -1,4 +1,4 @@
-//! Runs in which nothing moves but by rounding.
+//! Runs in which nothing moves but by rounding, and what is printed of scalars.
 
 use super::{ADAPTIVE, AXIS, PLANE, SPACE, run, text};
 
@@ -33,5 +33,24 @@ fn ways_that_are_rounding_are_no_reason_for_shorter_steps() {
         settings[2] = &force;
         let output = run(directory.path(), case, &settings);
         assert!(text(&output.stdout).contains("ways"), "{more:?}: {}", text(&output.stdout));
+    }
+}
+
+#[test]
+fn scalars_are_in_the_table_at_the_end() {
+    let directory = tempfile::tempdir().unwrap();
+    let scalar = "scalar=[{ name = 'dye', diffusivity = 0.1, initial = 1.0, body = { b = { value = 2.0 } } }]";
+    for (case, more) in
+        [(PLANE, vec![]), (AXIS, vec![ADAPTIVE]), (PLANE, vec!["time={ steady = {} }"])]
+    {
+        let mut settings = vec![scalar];
+        settings.extend(&more);
+        let output = run(directory.path(), case, &settings);
+        let said = text(&output.stdout);
+        let total = said.lines().find(|line| line.starts_with("scalar.dye.total "));
+        let total = total.unwrap_or_else(|| panic!("{said}{}", text(&output.stderr)));
+        let value: f64 = total.split_whitespace().nth(1).unwrap().parse().unwrap();
+        assert!(value > 0.0, "{total}");
+        assert!(said.contains("scalar.dye.b."), "{said}");
     }
 }
