@@ -43,7 +43,7 @@ fn commands_that_a_signal_ends_say_what_is_left() {
         ("INT", vec!["mesh", "fine.toml"], "begins again when it is called"),
         (
             "TERM",
-            vec!["run", "robot-eel", "--fidelity", "reduced", "--set", "time.unsteady.end=1e7"],
+            vec!["run", "robot-eel", "--fidelity", "reduced", "--set", "time.unsteady.end=1e6"],
             "keeps nothing on its way",
         ),
         ("HUP", vec!["run", "bar.toml", "--fidelity", "soft"], "keeps nothing on its way"),
