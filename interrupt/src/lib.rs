@@ -40,9 +40,11 @@ pub struct Heard<R> {
     pub was_ended: bool,
 }
 
-/// Does work on this thread that ends early, where it looks, once a request is made.
+/// Does work on this thread that ends early, where it looks, once a request is made: this one, or that of work which
+/// this is a part of.
 pub fn hearing<R>(request: Request, work: impl FnOnce() -> R) -> Heard<R> {
-    let asked = Asked { request, is_made: AtomicBool::new(false) };
+    let whole = Listener::here().asked;
+    let asked = Asked { request, whole, is_made: AtomicBool::new(false) };
     let listener = Listener { asked: Some(Arc::new(asked)) };
     let _before = Before(LISTENER.replace(listener.clone()));
     let result = work();
@@ -61,6 +63,8 @@ impl Drop for Before {
 /// A request, and whether it was found to be made.
 struct Asked {
     request: Request,
+    /// That of the work which this is a part of.
+    whole: Option<Arc<Asked>>,
     is_made: AtomicBool,
 }
 
@@ -82,6 +86,12 @@ impl Listener {
     #[must_use]
     pub fn here() -> Self {
         LISTENER.with_borrow(Self::clone)
+    }
+
+    /// Does work on this thread that the listener looks for: part of what goes on elsewhere.
+    pub fn along<R>(&self, work: impl FnOnce() -> R) -> R {
+        let _before = Before(LISTENER.replace(self.clone()));
+        work()
     }
 
     /// Whether work is to end, in a loop of short rounds: then what it has so far may be left as it is.
@@ -113,7 +123,9 @@ impl Listener {
 
 impl Asked {
     fn ask(&self) -> bool {
-        let is_made = self.is_made.load(Ordering::Relaxed) || (self.request)();
+        let is_made = self.is_made.load(Ordering::Relaxed)
+            || (self.request)()
+            || self.whole.as_ref().is_some_and(|whole| whole.ask());
         if is_made {
             self.is_made.store(true, Ordering::Relaxed);
         }
@@ -133,6 +145,15 @@ pub fn is_requested() -> bool {
 /// Where work is to end.
 pub fn check() -> Result<(), Stopped> {
     LISTENER.with_borrow(Listener::check)
+}
+
+/// Says before results are used whether a look has found that the work is to end: then some of it may have been left
+/// as it was.
+///
+/// # Errors
+/// Where it was ended.
+pub fn check_whole() -> Result<(), Stopped> {
+    if LISTENER.with_borrow(Listener::was_ended) { Err(Stopped) } else { Ok(()) }
 }
 
 /// Does long work of a library that cannot look. Where it is to end, it is left to a thread of its own, which ends
@@ -208,6 +229,29 @@ mod tests {
         });
         assert!(!outer.was_ended && outer.result == Ok(()));
         assert!(check().is_ok() && !is_requested());
+    }
+
+    #[test]
+    fn what_goes_on_elsewhere_is_part_of_the_work() {
+        let heard = hearing(made_at(1), || {
+            let listener = Listener::here();
+            let elsewhere = thread::spawn(move || (check_whole(), listener.along(check), check()));
+            assert_eq!(elsewhere.join().expect("no panic"), (Ok(()), Err(Stopped), Ok(())));
+            check_whole()
+        });
+        assert!(heard.was_ended && heard.result == Err(Stopped));
+        assert_eq!(check_whole(), Ok(()));
+    }
+
+    #[test]
+    fn a_part_ends_with_the_whole() {
+        let outer = hearing(made_at(2), || {
+            let inner = hearing(made_at(usize::MAX), || [check(), check()]);
+            assert!(inner.was_ended);
+            inner.result
+        });
+        assert!(outer.was_ended);
+        assert_eq!(outer.result, [Ok(()), Err(Stopped)]);
     }
 
     #[test]

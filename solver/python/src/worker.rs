@@ -11,6 +11,7 @@ use std::time::Duration;
 
 use alewife::run::{RunError, SavedState, Session};
 use alewife::runner::{Failure, SessionPlan, session};
+use alewife_interrupt::hearing;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -71,11 +72,14 @@ impl Worker<AnySession> {
         let worker = Self::start(plan.threads)?;
         let stop = Arc::clone(&worker.stop);
         worker.work(py, move |own| {
-            let session = match plan.file.case().geometry.dimensions() {
-                2 => AnySession::Plane(session::<2>(&plan)?),
-                _ => AnySession::Space(session::<3>(&plan)?),
-            };
-            *own = Some(session.stopped_by(&stop));
+            // An interrupt is heard while it is meshed, too
+            let opened = hearing(Stopped::by(&stop), || {
+                Ok::<_, Failure>(match plan.file.case().geometry.dimensions() {
+                    2 => AnySession::Plane(session::<2>(&plan)?),
+                    _ => AnySession::Space(session::<3>(&plan)?),
+                })
+            });
+            *own = Some(opened.result?.stopped_by(&stop));
             Ok(())
         })?;
         Ok(worker)

@@ -10,7 +10,7 @@ use super::style::say;
 use crate::case::CaseFile;
 use crate::observer::write_atomic;
 use crate::run::{Dimension, Solve, build_mesh};
-use crate::runner::too_large;
+use crate::runner::with_key;
 
 /// Where a mesh is written, and how.
 #[derive(Debug)]
@@ -61,7 +61,7 @@ where
     Dimension<D>: Solve<D>,
 {
     let mesh = build_mesh::<D>(&file.model);
-    let mesh = mesh.map_err(|error| too_large(file, error))?;
+    let mesh = mesh.map_err(|error| with_key(file, error))?;
     let failed = |error: std::io::Error| {
         Failure::new(Exit::InputOutput, format!("cannot write {}: {error}", path.display()))
     };

@@ -32,7 +32,7 @@ use exit::{Exit, Failure};
 use read::Settings;
 use style::{complain, say};
 
-use crate::runner::{end_aborted_with, outlive_file_size_limit};
+use crate::runner::{end_aborted_with, ended_by_signal, outlive_file_size_limit};
 
 pub use panic::guard;
 
@@ -158,6 +158,24 @@ enum Command {
     },
 }
 
+impl Command {
+    /// What there is to say where a signal ends it; nothing of a command that sees to signals itself.
+    fn left_by_a_signal(&self) -> Option<&'static str> {
+        match self {
+            Self::Run(options) if options.is_of_flow() => None,
+            Self::Sweep(options) if options.runs() => None,
+            Self::Validate(_) => None,
+            Self::Calibrate(_) | Self::Optimise(_) | Self::Loop(_) => Some(
+                "called again, it comes to the same bits, and takes evaluations from the journal in its directory",
+            ),
+            Self::Run(_) => {
+                Some("it keeps nothing on its way, and begins again when it is run again")
+            }
+            _ => Some("it begins again when it is called again"),
+        }
+    }
+}
+
 /// Does what the command line says.
 #[must_use]
 pub fn run() -> ExitCode {
@@ -183,6 +201,13 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
     outlive_file_size_limit()?;
     end_aborted_with(Exit::OutOfMemory)?;
     parent::follow_named()?;
+    match command.left_by_a_signal() {
+        Some(left) => ended_by_signal(left, || perform(command)),
+        None => perform(command),
+    }
+}
+
+fn perform(command: Command) -> Result<Exit, Failure> {
     match command {
         Command::List { long } => library::list(long),
         Command::Show { case, source } => library::show(&case, source),

@@ -5,6 +5,7 @@
 
 use std::path::Path;
 
+use alewife_interrupt::check_whole;
 use alewife_reduced::search::{
     Bounded, Ended, Evaluated, Found, Progress, Search, SearchError, certainties, search,
 };
@@ -96,6 +97,7 @@ impl FlowSearch {
             self.rounds(directory, &bounded, told)?;
         let rise = RISE * last.best.objective.abs();
         let certainties = certainties(&bounded, &last.best, rise, &mut sought);
+        check_whole().map_err(SearchError::from)?;
         let quantities = sought.quantities(&last.best.values)?;
         let values = |of: &[Derivatives]| of.iter().map(|one| one.value).collect();
         Ok(Optimum {

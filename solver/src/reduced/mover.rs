@@ -1,5 +1,6 @@
 //! `Mover`: what moves the tree of a case from step to step.
 
+use alewife_interrupt::{Stopped, is_requested};
 use alewife_reduced::tree::{
     Connection, Drift, Number, Scheme, State, Stepper, Tree, TreeError, Twist, compiled::Compiled,
     magnus, real,
@@ -56,13 +57,16 @@ impl<T: Compiled> Mover<T> {
     /// Advances a state to a time (s).
     ///
     /// # Errors
-    /// `TreeError` when the step fails.
+    /// `TreeError` when the step fails, or it is to make none any more.
     pub fn step(
         &mut self,
         reduced: &Reduced,
         state: &mut State<T>,
         end: f64,
     ) -> Result<(), TreeError> {
+        if is_requested() {
+            return Err(Stopped.into());
+        }
         let step = end - state.time;
         for propeller in &mut self.propellers {
             propeller.advance(state.time, step);

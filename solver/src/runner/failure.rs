@@ -126,7 +126,8 @@ pub fn exit_of(error: &RunError) -> Exit {
         | RunError::Waits { .. }
         | RunError::TooLarge { .. }
         | RunError::BeyondMaxCells { .. }
-        | RunError::TooManyCells { .. } => Exit::BadCase,
+        | RunError::TooManyCells { .. }
+        | RunError::NotFinite { .. } => Exit::BadCase,
         RunError::Mesh(_) | RunError::Remesh { .. } | RunError::MeshTooLarge { .. } => Exit::Mesh,
         RunError::Session(_) => Exit::Usage,
         RunError::Output(_) => Exit::InputOutput,

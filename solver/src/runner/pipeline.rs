@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
+use super::blamed_key::with_key;
 use super::continuation::{Beginning, beginning, n_requeued};
 use super::failure::{Exit, Failure};
 use super::plan::{Finished, Outcome, RunPlan, Stopped};
@@ -11,7 +12,6 @@ use super::replay::recording;
 use super::resume::{is_inside, read_resumed};
 use super::signal::SignalWatch;
 use super::simulate::{Resumed, RunInto, simulate_into};
-use super::too_large::too_large;
 use super::wall_limit::WallLimit;
 use super::{live, threads};
 use crate::case::{CaseFile, rounded};
@@ -88,7 +88,7 @@ where
                 has_state: checkpoints(out).is_ok_and(|found| !found.is_empty()),
             }));
         }
-        summary => summary.map_err(|error| too_large(file, error))?,
+        summary => summary.map_err(|error| with_key(file, error))?,
     };
     let comparisons =
         if plan.compares { compare(&name, file.case(), &summary) } else { Vec::new() };

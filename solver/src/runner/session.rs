@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::blamed_key::with_key;
 use super::failure::{Exit, Failure, listing};
 use super::resume::read_resumed;
 use super::simulate::Resumed;
@@ -72,10 +73,11 @@ where
         None => Vec::new(),
         Some(out) => observers(plan, out, resumed.as_ref())?,
     };
-    Ok(match state {
-        None => Session::open(&file.model, observers)?,
-        Some(state) => Session::resume(&file.model, state, observers)?,
-    })
+    let opened = match state {
+        None => Session::open(&file.model, observers),
+        Some(state) => Session::resume(&file.model, state, observers),
+    };
+    opened.map_err(|error| with_key(file, error))
 }
 
 fn observers<const D: usize>(

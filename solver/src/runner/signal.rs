@@ -1,14 +1,16 @@
-//! Signals that end a run before its next step: Ctrl-C, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1.
+//! Signals that end a run before its next step, or a command on its way: Ctrl-C, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1.
 
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use alewife_interrupt::{Request, hearing};
 use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGXFSZ};
 use signal_hook::flag;
 
-use super::failure::Exit;
+use super::failure::{Exit, Failure};
+use crate::observer::print_line;
 use crate::run::{Observer, Snapshot};
 use crate::step::StopRequest;
 
@@ -16,6 +18,8 @@ use crate::step::StopRequest;
 const LOOK_EVERY: Duration = Duration::from_millis(100);
 /// Signals within this time are one.
 const TOGETHER: Duration = Duration::from_millis(500);
+/// How long a command may take to end where it looks whether it is asked to.
+const PATIENCE: Duration = Duration::from_millis(1200);
 
 /// Asks for the end of a run once a signal has come.
 #[derive(Debug, Clone)]
@@ -54,6 +58,48 @@ impl SignalWatch {
     pub fn has_come(&self) -> bool {
         self.has_come.load(Ordering::Relaxed)
     }
+
+    /// What is asked whether a signal has come.
+    pub fn request(&self) -> Request {
+        let has_come = Arc::clone(&self.has_come);
+        Arc::new(move || has_come.load(Ordering::Relaxed))
+    }
+
+    /// Ends the program some time after a signal where work is not done then, with what there is to say.
+    fn end_late(&self, is_done: &Arc<AtomicBool>, message: String) {
+        let (watch, is_done) = (self.clone(), Arc::clone(is_done));
+        std::thread::spawn(move || {
+            while !watch.has_come() {
+                std::thread::sleep(LOOK_EVERY);
+            }
+            std::thread::sleep(PATIENCE);
+            if !is_done.load(Ordering::Relaxed) {
+                print_line(&message);
+                std::process::exit(i32::from(Exit::Stopped as u8));
+            }
+        });
+    }
+}
+
+/// Does the work of a command that a signal ends: where the work looks whether it is to end, and where it does not
+/// look for long, with the program. Files of such work are written whole or line by line. `left` says what is left.
+///
+/// # Errors
+/// Those of the work, and `Exit::Stopped` where a signal ended it.
+pub fn ended_by_signal<R>(
+    left: &str,
+    work: impl FnOnce() -> Result<R, Failure>,
+) -> Result<R, Failure> {
+    let watch = SignalWatch::start()?;
+    let message = format!("stopped by a signal; {left}");
+    let is_done = Arc::new(AtomicBool::new(false));
+    watch.end_late(&is_done, message.clone());
+    let heard = hearing(watch.request(), work);
+    is_done.store(true, Ordering::Relaxed);
+    match heard.result {
+        Err(_) if heard.was_ended => Err(Failure { exit: Exit::Stopped, message }),
+        result => result,
+    }
 }
 
 /// Makes a file that grows beyond what the system allows an error of that file: the signal that comes
@@ -80,7 +126,6 @@ impl<const D: usize> Observer<D> for SignalWatch {
     }
 
     fn stop_request(&self) -> Option<StopRequest> {
-        let has_come = Arc::clone(&self.has_come);
-        Some(Arc::new(move || has_come.load(Ordering::Relaxed)))
+        Some(self.request())
     }
 }

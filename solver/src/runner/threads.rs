@@ -1,5 +1,7 @@
 //! How many threads a run uses.
 
+use alewife_interrupt::Listener;
+
 use super::failure::{Exit, Failure};
 use crate::observer::print_line;
 
@@ -48,7 +50,8 @@ pub fn granted() -> usize {
 /// Does work on one of the threads: what it does in parallel then begins there, where each piece would have to be
 /// handed over from the main thread, which takes longer than many of them.
 pub fn within<R: Send>(work: impl FnOnce() -> R + Send) -> R {
-    rayon::scope(|_| work())
+    let listener = Listener::here();
+    rayon::scope(|_| listener.along(work))
 }
 
 fn from_environment() -> Option<usize> {

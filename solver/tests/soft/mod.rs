@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 /// A bar in the plane with fibres along one side.
-const BAR: &str = r#"
+pub(crate) const BAR: &str = r#"
 title = "a bar"
 geometry = "planar"
 [[solid]]

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::excess::Excess;
 use super::resume::ResumeError;
-use super::watch::Allowed;
+use super::watch::{Allowed, NotFinite};
 use crate::case::{CommandError, rounded};
 use crate::contact::ContactError;
 use crate::coupling::{ShapeError, coordinates};
@@ -45,6 +45,21 @@ pub enum RunError {
         cell_reynolds: f64,
         /// Where the fluid is fastest (m).
         near: Vec<f64>,
+    },
+    /// An expression of the case has no finite value.
+    #[error(
+        "step {step}: `{}` = {} is {} at {} and t = {}",
+        found.key,
+        found.written,
+        found.value,
+        coordinates(&found.near),
+        rounded(found.time)
+    )]
+    NotFinite {
+        /// Step.
+        step: usize,
+        /// Which, where and when.
+        found: Box<NotFinite>,
     },
     /// The system would not fit into memory.
     #[error(

@@ -121,10 +121,11 @@ impl<const D: usize> Run<'_, D> {
     pub(super) fn step_errors(&self) -> Option<StepErrorReport> {
         let TimeSettings::Unsteady(_) = &self.model.case.time else { return None };
         let errors = &self.simulation.state.step_errors;
+        let rounding = self.simulation.rounding_of_motion();
         Some(StepErrorReport {
-            velocity: errors.of_flow(),
-            ways: errors.of_ways(),
-            loads: self.load_errors.largest(),
+            velocity: errors.of_flow(rounding.flow),
+            ways: errors.of_ways(rounding.way),
+            loads: self.load_errors.largest(&rounding.loads),
         })
     }
 

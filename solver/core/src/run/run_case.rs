@@ -147,7 +147,8 @@ impl<'a, const D: usize> Run<'a, D> {
         work: impl FnOnce(&mut Self) -> Result<R, RunError>,
     ) -> Result<R, RunError> {
         let stop = self.simulation.stop.clone().unwrap_or_else(|| Arc::new(|| false));
-        let made = hearing(stop, || work(self));
+        let mut made = hearing(stop, || work(self));
+        made.result = made.result.map_err(|error| self.simulation.by_key(self.case(), error));
         unless_stopped(made, self.simulation.state.step, self.simulation.state.time)
     }
 

@@ -65,11 +65,15 @@ where
     let systems = match &model.case.time {
         TimeSettings::Steady(settings) => {
             let equations = simulation.steady_equations();
-            let flow = simulation.solve_at_start(settings, &equations, false)?;
+            let flow = simulation.solve_at_start(settings, &equations, false);
+            let flow = flow.map_err(|error| simulation.by_key(&model.case, error))?;
             simulation.state.begin(InitialLevels::steady(flow.solution));
             flow.iterations
         }
-        TimeSettings::Unsteady(settings) => simulation.begin(settings)?.iterations,
+        TimeSettings::Unsteady(settings) => {
+            let begun = simulation.begin(settings);
+            begun.map_err(|error| simulation.by_key(&model.case, error))?.iterations
+        }
     };
     let start = begun.effort(systems);
     let (step, saved) = match &model.case.time {

@@ -12,10 +12,10 @@ pub struct ErrorOfChange {
 }
 
 impl ErrorOfChange {
-    /// The error as a part of the change; none without change.
+    /// The error as a part of the change; none where that is no more than one that is rounding.
     #[must_use]
-    pub fn part(&self) -> Option<f64> {
-        (self.change > 0.0).then(|| self.error / self.change)
+    pub fn part(&self, rounding: f64) -> Option<f64> {
+        (self.change > rounding).then(|| self.error / self.change)
     }
 }
 
@@ -29,10 +29,11 @@ pub struct SquaredError {
 }
 
 impl SquaredError {
-    /// The error as a part of what it is one of; none where that is zero.
+    /// The error as a part of what it is one of; none where the integral of the square of that is no more than one that
+    /// is rounding.
     #[must_use]
-    pub fn part(&self) -> Option<f64> {
-        (self.size > 0.0).then(|| (self.error / self.size).sqrt())
+    pub fn part(&self, rounding: f64) -> Option<f64> {
+        (self.size > rounding).then(|| (self.error / self.size).sqrt())
     }
 }
 
@@ -57,16 +58,17 @@ impl StepErrors {
         }
     }
 
-    /// The error of the velocity of the fluid over the velocity; none without inertia.
+    /// The error of the velocity of the fluid over the velocity; none without inertia, and where the integral of the mean
+    /// square of the velocity is rounding (m2/s).
     #[must_use]
-    pub fn of_flow(&self) -> Option<f64> {
-        self.flow.part()
+    pub fn of_flow(&self, rounding: f64) -> Option<f64> {
+        self.flow.part(rounding)
     }
 
-    /// The largest error of the way of a body over the way.
+    /// The largest error of the way of a body over the way; ways that are rounding (m) have none.
     #[must_use]
-    pub fn of_ways(&self) -> Option<f64> {
-        self.ways.iter().filter_map(ErrorOfChange::part).max_by(f64::total_cmp)
+    pub fn of_ways(&self, rounding: f64) -> Option<f64> {
+        self.ways.iter().filter_map(|way| way.part(rounding)).max_by(f64::total_cmp)
     }
 }
 
@@ -81,11 +83,12 @@ mod tests {
             ways: vec![ErrorOfChange::default(), ErrorOfChange { error: 2.0 * error, change }],
         };
         let mut sums = StepErrors::default();
-        assert_eq!((sums.of_flow(), sums.of_ways()), (None, None));
+        assert_eq!((sums.of_flow(0.0), sums.of_ways(0.0)), (None, None));
         sums.add(&step(0.3, 2.0));
         sums.add(&step(0.4, 2.0));
         let near = |value: Option<f64>, expected: f64| (value.unwrap() - expected).abs() < 1e-12;
-        assert!(near(sums.of_flow(), (0.25f64 / 8.0).sqrt()), "{sums:?}");
-        assert!(near(sums.of_ways(), 0.35), "{sums:?}");
+        assert!(near(sums.of_flow(7.9), (0.25f64 / 8.0).sqrt()), "{sums:?}");
+        assert!(near(sums.of_ways(3.9), 0.35), "{sums:?}");
+        assert_eq!((sums.of_flow(8.1), sums.of_ways(4.1)), (None, None), "rounding");
     }
 }

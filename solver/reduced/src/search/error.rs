@@ -1,5 +1,6 @@
 //! `SearchError`: why a search does not begin, or cannot be taken up again.
 
+use alewife_interrupt::Stopped;
 use thiserror::Error;
 
 /// What is wrong with a search.
@@ -16,6 +17,9 @@ pub enum SearchError {
     /// The objective has no value at the start.
     #[error("at the start: {0}")]
     Start(String),
+    /// It was asked to end: its journal has what was evaluated.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
     /// The journal is that of another search.
     #[error("{0} is the journal of another search: take it away, or write elsewhere")]
     OtherSearch(String),

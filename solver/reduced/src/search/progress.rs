@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use alewife_interrupt::check_whole;
+
 use super::{Bounded, Evaluated, Found, Journal, Opened, Search, SearchError, Sought, minimise};
 
 /// How far a search is.
@@ -30,11 +32,11 @@ impl Progress {
 }
 
 /// Makes an objective small, with all evaluations in a journal: what stands there is not evaluated again, and so
-/// a search that was killed goes on with the same bits. `name` says which search it is, `told` is called after
+/// a search that was stopped or killed goes on with the same bits. `name` says which search it is, `told` is called after
 /// each evaluation.
 ///
 /// # Errors
-/// Those of [`minimise`] and [`Journal::open`].
+/// Those of [`minimise`] and [`Journal::open`], and [`SearchError::Stopped`].
 pub fn search(
     parameters: &[Bounded],
     settings: &Search,
@@ -50,8 +52,10 @@ pub fn search(
     let mut n_evaluations = known.len();
     let (begun, n_known) = (Instant::now(), known.len());
     let settings = Search { known, ..settings.clone() };
-    minimise(parameters, &settings, |values| {
+    let found = minimise(parameters, &settings, |values| {
         let last = sought.evaluate(values)?;
+        // One of which a part was left as it was is none
+        check_whole().map_err(|stopped| stopped.to_string())?;
         journal.add(&last).map_err(|error| error.to_string())?;
         n_evaluations += 1;
         best = best.min(last.objective);
@@ -64,5 +68,7 @@ pub fn search(
             each: begun.elapsed() / n_here,
         });
         Ok::<_, String>(last)
-    })
+    });
+    check_whole()?;
+    found
 }

@@ -1,5 +1,6 @@
 //! The discrete adjoint: exact derivatives of an objective by all parameters of a motion, for the price of one more.
 
+use alewife_interrupt::check;
 use alewife_solid::material::Kinematics;
 use alewife_solid::solid::{Difference, Factor, Potential, SolidError, StrainLevel};
 
@@ -136,7 +137,7 @@ impl<const D: usize> SoftBody<D> {
     /// steps of a motion.
     ///
     /// # Errors
-    /// [`SoftError::Step`] where a step has no derivative.
+    /// [`SoftError::Step`] where a step has no derivative, and [`SoftError::Stopped`].
     pub fn gradient(
         &self,
         plan: &Plan,
@@ -157,6 +158,7 @@ impl<const D: usize> SoftBody<D> {
             gradient: Gradient { targets, fibre_stiffness, ..self.no_gradient(with_shape) },
         };
         for step in (0..n_steps).rev() {
+            check()?;
             let failed = |error| SoftError::Step { step: step + 1, n_steps, error };
             back.step(step).map_err(failed)?;
         }

@@ -1,5 +1,6 @@
 //! `SoftError`: why a motion, a record or a search is refused or fails.
 
+use alewife_interrupt::Stopped;
 use alewife_solid::solid::SolidError;
 use thiserror::Error;
 
@@ -19,6 +20,9 @@ pub enum SoftError {
         /// Why.
         error: SolidError,
     },
+    /// It was asked to end.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
     /// A curve of loads has too few or wrong points.
     #[error("{0}")]
     Curve(String),

@@ -1,5 +1,6 @@
 //! `Plan` and `Trajectory`: what is given of a motion, and how the body moves.
 
+use alewife_interrupt::check;
 use alewife_solid::solid::{Level, Minimiser, Motion, Scheme, StepInput};
 
 use super::SoftError;
@@ -103,13 +104,14 @@ impl<const D: usize> SoftBody<D> {
     /// Moves the body from rest as planned.
     ///
     /// # Errors
-    /// [`SoftError::Plan`], and [`SoftError::Step`] for a step that fails.
+    /// [`SoftError::Plan`], [`SoftError::Step`] for a step that fails, and [`SoftError::Stopped`].
     pub fn simulate(&self, plan: &Plan) -> Result<Trajectory, SoftError> {
         plan.check(self.solid.spec().fibres.len())?;
         let start = Motion::at_rest(&self.solid);
         let mut levels = vec![Level { places: start.places, velocities: start.velocities }];
         let mut minimiser = Minimiser::with_tolerance(plan.tolerance);
         for step in 0..plan.n_steps() {
+            check()?;
             let loads = self.loads(&levels[step].places, &levels[step].velocities);
             let given = StepInput {
                 scheme: plan.scheme,

@@ -6,6 +6,7 @@ use std::path::Path;
 use alewife_case::soft::SoftFile;
 use alewife_case::soft::search::SearchSettings;
 use alewife_case::soft::spec::{ReferenceOf, SoftCase};
+use alewife_interrupt::check_whole;
 use serde_json::{Value, json};
 
 use super::compare::{Compared, compare};
@@ -130,6 +131,7 @@ where
         let found = search(&bounded, &settings, [&journal, &name], &mut self.seeker, told)?;
         let first = found.all.first().map_or(0.0, |first| first.objective.abs());
         let certainties = certainties(&bounded, &found.best, RISE * first, &mut self.seeker);
+        check_whole()?;
         let case = {
             let mut case = self.file.case.clone();
             self.seeker.sought.write(&mut case, &found.best.values);

@@ -1,5 +1,6 @@
 //! `TreeError`: why a tree, its loads or a fit are refused or fail.
 
+use alewife_interrupt::Stopped;
 use thiserror::Error;
 
 /// What is wrong with a reduced model.
@@ -35,6 +36,9 @@ pub enum TreeError {
         /// Time at the end of the step (s).
         time: f64,
     },
+    /// It was asked to end.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
     /// Something else given is wrong.
     #[error("{0}")]
     Given(String),

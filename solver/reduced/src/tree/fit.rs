@@ -1,5 +1,6 @@
 //! Fits of coefficients: bounded linear least squares, and the method of Gauss and Newton with exact derivatives.
 
+use alewife_interrupt::check;
 use num_dual::Dual64;
 
 use super::cholesky::{factor, solve};
@@ -333,7 +334,8 @@ fn about(
 /// Fits by the method of Gauss and Newton, damped as by Levenberg and Marquardt, within bounds.
 ///
 /// # Errors
-/// `TreeError::Given` when the start is not within the bounds; those of the residuals at the start.
+/// `TreeError::Given` when the start is not within the bounds; those of the residuals at the start; and
+/// `TreeError::Stopped`.
 pub fn fit(
     residuals: &impl Residuals,
     start: &[f64],
@@ -348,6 +350,7 @@ pub fn fit(
     let least = residuals.differences().map_or(LEAST, |part| 1e-3 * part);
     let (mut damping, mut steps) = (1e-3, 0);
     while steps < most {
+        check()?;
         let normal = Normal::new(&now.columns, &now.values);
         let step = normal.step(damping, &room(&at, bounds));
         let change =

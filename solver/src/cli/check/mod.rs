@@ -21,7 +21,7 @@ use crate::cli::sweep::check_points;
 use crate::observer::reset_peak_memory;
 use crate::reduced::check_records;
 use crate::run::{BodyRecoil, Dimension, RunError, Solve, build_mesh, recoils};
-use crate::runner::{threads, too_large};
+use crate::runner::{threads, with_key};
 use crate::timing::cpu_seconds;
 
 /// How far a case is looked at.
@@ -104,7 +104,7 @@ where
 {
     reset_peak_memory();
     let (before, model) = (cpu_seconds(), &file.model);
-    let mesh = build_mesh::<D>(model).map_err(|error| too_large(file, error))?;
+    let mesh = build_mesh::<D>(model).map_err(|error| with_key(file, error))?;
     let seconds = cpu_seconds() - before;
     say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
     let quality = Dimension::<D>::quality(&mesh);
@@ -123,7 +123,7 @@ where
             Ok(timed) => cost::measured(model, &timed, seconds)?,
             // On this machine
             Err(error @ RunError::TooLarge { .. }) => format!("  none was made: {error}"),
-            Err(error) => return Err(error.into()),
+            Err(error) => return Err(with_key(file, error)),
         };
         say(&format!("\n{title}\n{cost}"));
     }

@@ -52,7 +52,7 @@ fn two_digits(value: f64) -> String {
     rounded.parse::<f64>().ok().filter(|_| is_near).map_or(rounded, |value| value.to_string())
 }
 
-/// Prints how the bodies ended, for a case without references.
+/// Prints how bodies and scalars ended, for a case without references.
 pub fn print_last_values(model: &Model, outcome: &RunSummary) {
     let Some(last) = outcome.series.rows.last() else { return };
     // Of the many bodies of a swimmer only what they do together.
@@ -63,13 +63,15 @@ pub fn print_last_values(model: &Model, outcome: &RunSummary) {
     let shown: Vec<&str> = bodies
         .map(|(_, body)| body.name.as_str())
         .chain(model.swimmers.iter().map(|swimmer| swimmer.name.as_str()))
+        // Scalars have it before their names
+        .chain(["scalar"])
         .collect();
-    let body_of = |name: &str| shown.iter().any(|shown| name.starts_with(&format!("{shown}.")));
+    let is_shown = |name: &str| shown.iter().any(|shown| name.starts_with(&format!("{shown}.")));
     for (name, value) in outcome.series.names.iter().zip(last) {
         // Of cycles nothing is known before the first has ended
         let is_mean =
             name.contains("flow.mean_velocity") || name.contains("flow.pressure_gradient");
-        if (is_mean || body_of(name)) && !name.contains("surface_") && !value.is_nan() {
+        if (is_mean || is_shown(name)) && !name.contains("surface_") && !value.is_nan() {
             say(&format!("{name:32}  {}", significant(*value)));
         }
     }

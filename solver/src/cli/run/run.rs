@@ -18,6 +18,12 @@ use crate::cli::{complete, soft};
 use crate::runner::{self, Finished, Outcome, RunPlan, Stopped};
 use crate::timing::cpu_seconds;
 
+/// What is left of a run that was stopped before its first state.
+const NO_STATE: &str = "it left no state to resume from, and begins again when it is run again";
+/// The same of one that is steady.
+const STEADY: &str = "it left no state to resume from: a steady run keeps nothing on its way, and begins again when \
+                      it is run again";
+
 /// What `run` is asked for.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -90,6 +96,11 @@ pub struct Options {
 }
 
 impl Options {
+    /// Whether the full solver runs, which sees to signals itself.
+    pub fn is_of_flow(&self) -> bool {
+        self.fidelity == Fidelity::Ale
+    }
+
     /// The run that is asked for.
     fn plan(&self, file: CaseFile) -> RunPlan {
         let default = || Path::new("runs").join(file.full_name().replace('/', "-"));
@@ -213,7 +224,11 @@ fn report(plan: &RunPlan, outcome: Outcome, remedy: &str) -> Result<Exit, Failur
             say(&format!("{} has come to its end before", plan.out.display()));
         }
         Outcome::Stopped(Stopped { reason, has_state }) => {
-            let remedy = if has_state { remedy } else { "it left no state to resume from" };
+            let remedy = match plan.file.case().time {
+                _ if has_state => remedy,
+                TimeSettings::Steady(_) => STEADY,
+                TimeSettings::Unsteady(_) => NO_STATE,
+            };
             // Who stops a run makes no error
             return Err(Failure { exit: Exit::Stopped, message: format!("{reason}; {remedy}") });
         }

@@ -132,6 +132,7 @@ pub fn search_failure(error: &SearchError) -> Failure {
     let exit = match error {
         SearchError::Bounds { .. } => Exit::BadCase,
         SearchError::Start(_) => Exit::Diverged,
+        SearchError::Stopped(_) => Exit::Stopped,
         SearchError::OtherSearch(_) => Exit::Usage,
         SearchError::File { .. } => Exit::InputOutput,
     };

@@ -51,6 +51,13 @@ enum SweepCommand {
     Script(script::Options),
 }
 
+impl Options {
+    /// Whether points are run, which sees to signals itself.
+    pub fn runs(&self) -> bool {
+        matches!(self.command, SweepCommand::Run(_))
+    }
+}
+
 /// Does what the command line says.
 pub fn sweep(options: &Options) -> Result<Exit, Failure> {
     match &options.command {

@@ -8,6 +8,7 @@ mod work;
 
 use std::path::PathBuf;
 
+use alewife_interrupt::hearing;
 use clap::Args;
 
 use super::complete;
@@ -116,10 +117,19 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     }
     let file = options.report.as_ref().map(|path| ReportFile::open(path.as_deref())).transpose()?;
     let work = options.work(n_threads)?;
-    let Made { mut reports, end } = Validation { work, file }.make(&members);
-    if end.is_none() {
-        for one in &searched {
-            reports.push(options.search(one, n_threads)?);
+    let watch = work.watch.clone();
+    let Made { mut reports, mut end } = Validation { work, file }.make(&members);
+    for one in &searched {
+        if end.is_some() {
+            break;
+        }
+        let heard = hearing(watch.request(), || options.search(one, n_threads));
+        match heard.result {
+            Err(_) if heard.was_ended => {
+                let reason = format!("stopped by a signal in {}", one.name());
+                end = Some(Failure::new(Exit::Stopped, reason));
+            }
+            report => reports.push(report?),
         }
     }
     match end {

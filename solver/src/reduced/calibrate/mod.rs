@@ -16,7 +16,8 @@ pub use compare::{Deviation, Overlay};
 pub use error::CalibrateError;
 pub use record::check_records;
 
-use alewife_reduced::tree::Fit;
+use alewife_interrupt::check_whole;
+use alewife_reduced::tree::{Fit, TreeError};
 
 use self::record::{Origin, Record, records};
 use self::sought::{Sought, with_found};
@@ -71,6 +72,7 @@ pub fn calibrate(file: &CaseFile) -> Result<Calibrated, CalibrateError> {
         FitBy::Tracks => tracks::fitted(&fitted, &sought, MOST_STEPS)?,
         FitBy::Both => both::fitted(&fitted, &sought, MOST_STEPS)?,
     };
+    check_whole().map_err(TreeError::from)?;
     let remark = standing::judged(&fit, &sought.start, &sought.bounds, &spec.fit)?;
     let found = with_found(&reduced, &spec.fit, &fit.parameters);
     let (mut deviations, mut overlays) = (Vec::new(), Vec::new());

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-use super::motion::{by_axis, initial, mass};
+use super::motion::{by_axis, initial, locked, mass};
 use super::{gait, polygon, rod, solid, spring, surface};
 use crate::rules::Findings;
 use crate::rules::flow::boundary::check_factor;
@@ -40,6 +40,7 @@ pub fn check(findings: &mut Findings<'_>) {
         check_motion(findings, &key, body);
         by_axis::check(findings, index, body);
         initial::check(findings, index, body);
+        locked::check(findings, index, body);
         mass::check(findings, index, body);
         spring::check(findings, &key, body);
         gait::check(findings, &key, body);

@@ -99,10 +99,15 @@ fn track(findings: &mut Findings<'_>, key: &str, name: &str) {
         let message = format!("\"{name}\" is no track");
         return findings.error(key, message, "NAME.x, NAME.y, NAME.z or NAME.angle of a body");
     };
-    let is_spatial = findings.case().geometry == Geometry::Spatial;
-    if (what == "z") != is_spatial && matches!(what, "z" | "angle") {
+    let known: &[&str] = match findings.case().geometry {
+        Geometry::Planar => &["x", "y", "angle"],
+        Geometry::Axisymmetric => &["x"],
+        Geometry::Spatial => &["x", "y", "z"],
+    };
+    if !known.contains(&what) {
         let message = format!("a body has no track \"{what}\" in this geometry");
-        return findings.error(key, message, "x, y and angle in the plane, x, y and z in space");
+        let help = "x, y and angle in the plane, x on the axis, x, y and z in space";
+        return findings.error(key, message, help);
     }
     is_a_body(findings, key, body);
 }

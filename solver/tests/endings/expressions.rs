@@ -1,0 +1,100 @@
+//! Expressions of a case that are no finite number somewhere or at some time: refused by key, place and time.
+
+use super::{ADAPTIVE, AXIS, PLANE, SPACE, run, text};
+
+/// What a run with these settings is refused with.
+fn refused(case: &str, settings: &[&str]) -> String {
+    let directory = tempfile::tempdir().unwrap();
+    let output = run(directory.path(), case, settings);
+    let told = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(65), "{settings:?}: {told}");
+    told
+}
+
+#[test]
+fn an_expression_without_a_value_is_refused_where_it_is_written() {
+    let directory = tempfile::tempdir().unwrap();
+    let case = PLANE.replace("['1-(y/2)^2', 0]", "['sqrt(y)', 0]");
+    let told = text(&run(directory.path(), &case, &[]).stderr);
+    assert!(
+        told.contains("step 1: `boundary.left.velocity.value.0` = \"sqrt(y)\" is NaN at (-2"),
+        "{told}"
+    );
+    assert!(
+        told.contains("case.toml:6:") && told.contains("an expression that is finite"),
+        "{told}"
+    );
+}
+
+#[test]
+fn expressions_of_all_kinds_are_refused_by_key_place_and_time() {
+    let stokes = "fluid.model='stokes'";
+    let scalar = |rest: &str| format!("scalar=[{{ name = 'c', diffusivity = 0.1, {rest} }}]");
+    let [initial, source, on_body] = [
+        "initial = 'log(x)'",
+        "initial = 1.0, source = 'sqrt(0.12 - t)'",
+        "initial = 1.0, body = { b = { value = 'sqrt(0.12 - t)' } }",
+    ]
+    .map(scalar);
+    let late = "boundary.left.velocity.value=['sqrt(0.12 - t)', 0]";
+    for (case, settings, key, rest) in [
+        (PLANE, vec![late], "boundary.left.velocity.value.0", "and t = 0.15"),
+        (PLANE, vec![late, stokes], "boundary.left.velocity.value.0", "and t = 0.15"),
+        (PLANE, vec![late, ADAPTIVE], "boundary.left.velocity.value.0", "and t = 0.1"),
+        (
+            PLANE,
+            vec!["boundary.right={ pressure = { value = '1/(t - 0.1)' } }"],
+            "boundary.right.pressure.value",
+            "is inf",
+        ),
+        (
+            PLANE,
+            vec!["boundary.right={ traction = { value = [0, 'log(x - 3)'] } }"],
+            "boundary.right.traction.value.1",
+            "at (2.0",
+        ),
+        (PLANE, vec!["fluid.force=[0, 'sqrt(x)']"], "fluid.force.1", "NaN"),
+        (
+            PLANE,
+            vec!["fluid.force=[0, 'sqrt(x)']", "time={ steady = {} }"],
+            "fluid.force.1",
+            "step 0",
+        ),
+        (PLANE, vec!["initial.velocity=['sqrt(y)', 0]"], "initial.velocity.0", "t = 0"),
+        (PLANE, vec![&initial], "scalar.0.initial", "t = 0"),
+        (PLANE, vec![&source], "scalar.0.source", "t = 0.15"),
+        (PLANE, vec![&on_body], "scalar.0.body.b.value", "t = 0.15"),
+        (
+            AXIS,
+            vec!["boundary.wall={ velocity = { value = ['sqrt(x)', 0] } }"],
+            "boundary.wall.velocity.value.0",
+            "NaN",
+        ),
+        (
+            SPACE,
+            vec![stokes, "boundary.wall={ velocity = { value = [0, 0, 'sqrt(z)'] } }"],
+            "boundary.wall.velocity.value.2",
+            "NaN",
+        ),
+        (SPACE, vec!["fluid.force=['sqrt(0.12 - t)', 0, 0]"], "fluid.force.0", "t = 0.15"),
+    ] {
+        let told = refused(case, &settings);
+        assert!(told.contains(&format!("`{key}` = ")), "{settings:?}: {told}");
+        assert!(told.contains(rest) && told.contains("--set:1:"), "{settings:?}: {told}");
+    }
+}
+
+#[test]
+fn a_case_is_checked_for_expressions_at_the_start() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("case.toml"), PLANE).unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["check", "case.toml", "--threads", "1", "--set", "fluid.force=['sqrt(x)', 0]"])
+        .args(["--set", "time={ steady = {} }"])
+        .current_dir(directory.path())
+        .output()
+        .unwrap();
+    let told = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(65), "{told}");
+    assert!(told.contains("`fluid.force.0` = \"sqrt(x)\" is NaN"), "{told}");
+}
