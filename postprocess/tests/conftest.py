@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 
 import matplotlib
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 from mcap.writer import CompressionType, Writer
 
-from alewife_post import Run, open_run, scene
+from alewife_post import Run, figure, open_run, scene, slices, space, stage, stills
 
 matplotlib.use("Agg")
 # Before anything loads VTK.
@@ -200,6 +201,21 @@ def write_run(path: Path, *, is_axisymmetric: bool) -> None:
     (path / "fields.pvd").write_text(
         f'<VTKFile type="Collection" version="1.0"><Collection>\n{sets}</Collection></VTKFile>\n'
     )
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _coarse_images() -> Iterator[None]:
+    """Images of the flow in few pixels: most of a test would be spent on those of papers.
+
+    What is drawn by commands, as for the pages of tutorials, has all of them.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(figure, "IMAGE_WIDTH", 600)
+        patch.setattr(slices, "IMAGE_WIDTH", 400)
+        patch.setattr(space, "IMAGE_SIZE", (400, 300))
+        patch.setattr(stage, "FINER", 1)
+        patch.setattr(stills, "PIXELS", 100)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -59,10 +59,9 @@ fn below_its_step_out_rate_a_disc_lags_by_the_arcsine_of_the_rate() {
     }
 }
 
-/// The mean rate of a disc in a field that is too fast: over whole periods of its slip, whatever the lag.
+/// The mean rate of a disc in a field that is too fast: over a whole period of its slip, whatever the lag.
 fn mean_rate(rate: f64, step: f64, scheme: &str) -> f64 {
-    let period = TAU / (rate * rate - 1.0).sqrt();
-    let end = 2.0 * period;
+    let end = TAU / (rate * rate - 1.0).sqrt();
     let step = end / (end / step).ceil();
     let outcome = disc(rate, &format!("step = {step:e}, end = {end:e}{scheme}"), "");
     (last(&outcome, "disc.angle") - column(&outcome, "disc.angle")[0]) / end

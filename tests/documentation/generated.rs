@@ -4,10 +4,10 @@ use std::fmt::Write;
 use std::fs;
 
 use alewife_core::case::soft::{self, SoftFile};
-use alewife_core::case::{Case, library, schema};
+use alewife_core::case::{library, schema};
 use serde_json::Value;
 
-use super::{case_names, root};
+use super::{CASES, root};
 
 /// Compares a page with what it should be, or writes it where `ALEWIFE_UPDATE` is set.
 fn up_to_date(page: &str, wanted: &str) {
@@ -30,13 +30,7 @@ fn the_gallery_shows_every_case() {
          is compared with. `alewife show NAME`\ndescribes one, and \
          `alewife show NAME --source > my.toml` starts a file of your own from it.\n",
     );
-    let soft: Vec<&str> = library::soft().iter().map(|case| case.name).collect();
-    for name in case_names() {
-        if soft.contains(&name.as_str()) {
-            continue;
-        }
-        let path = root().join("cases").join(&name).display().to_string();
-        let file = Case::read(&path, &[]).unwrap_or_else(|error| panic!("{name}\n{error}"));
+    for (name, file) in CASES.iter() {
         let case = file.case();
         // A case whose values are all of its variants is run by one of them.
         let variant = match case.variant.first() {

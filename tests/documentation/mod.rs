@@ -7,6 +7,7 @@ mod names;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use alewife_core::case::soft::SoftFile;
 use alewife_core::case::{
@@ -115,13 +116,18 @@ fn the_tables_of_quantities_are_those_of_the_program() {
 /// Reads a case, and complains about whatever `check` calls an error.
 fn read_and_check(argument: &str, what: &str) -> CaseFile {
     let file = Case::read(argument, &[]).unwrap_or_else(|error| panic!("{what}\n{error}"));
-    let errors: Vec<String> = check(&file)
+    assert_right(&file, what);
+    file
+}
+
+/// Complains about whatever `check` calls an error.
+fn assert_right(file: &CaseFile, what: &str) {
+    let errors: Vec<String> = check(file)
         .iter()
         .filter(|problem| problem.severity == Severity::Error)
         .map(ToString::to_string)
         .collect();
     assert!(errors.is_empty(), "{what}\n{}", errors.join("\n"));
-    file
 }
 
 /// Source folders of all crates.
@@ -230,6 +236,17 @@ fn case_names() -> BTreeSet<String> {
         .collect()
 }
 
+/// The files of the cases of `cases/` that are no soft ones, read once.
+static CASES: LazyLock<BTreeMap<String, CaseFile>> = LazyLock::new(|| {
+    let is_soft = |name: &String| library::soft().iter().any(|case| case.name == name);
+    let read = |name: String| {
+        let path = root().join("cases").join(&name).display().to_string();
+        let file = Case::read(&path, &[]).unwrap_or_else(|error| panic!("{name}\n{error}"));
+        (name, file)
+    };
+    case_names().into_iter().filter(|name| !is_soft(name)).map(read).collect()
+});
+
 /// Kinds of the references of a soft case, which is right.
 fn soft_kinds(path: &str) -> String {
     let file = SoftFile::read(path, &[]).unwrap_or_else(|error| panic!("{path}\n{error}"));
@@ -262,12 +279,12 @@ fn the_table_of_cases_is_that_of_the_folders() {
             panic!("{name}: {} cells, not 5", cells.len())
         };
         assert!([physics, source, cost].iter().all(|cell| !cell.is_empty()), "{name}");
-        let path = root().join("cases").join(&name);
-        if library::soft().iter().any(|case| case.name == name) {
+        let Some(file) = CASES.get(&name) else {
+            let path = root().join("cases").join(&name);
             assert_eq!(*kinds, soft_kinds(&path.display().to_string()), "{name}: kinds");
             continue;
-        }
-        let file = read_and_check(&path.display().to_string(), &name);
+        };
+        assert_right(file, &name);
         let case = file.case();
         let mut references: Vec<&Reference> = case.reference.iter().collect();
         references.extend(case.variant.iter().flat_map(|variant| &variant.reference));

@@ -126,8 +126,8 @@ impl Turning {
     }
 
     /// Stops a run before the last of the steps, at the first questions whether to stop in it, at some of those that
-    /// follow, and after it: what continues
-    /// from there has the same state, with all quantities so far, one step later.
+    /// follow, and after it: what continues from there has the same state, with all quantities so far, one step
+    /// later. Most stops in a step leave the same state, from which it is enough to continue once.
     fn goes_on_with_the_same_bits<const D: usize>(&self, direction: f64, off: f64)
     where
         Dimension<D>: Solve<D>,
@@ -136,15 +136,20 @@ impl Turning {
         assert!((is - off).abs() < 0.5 * off.abs(), "{off:e} was wanted, and it is {is:e}");
         let (model, end) = ((self.model)(direction, self.steps + 2), self.steps + 1);
         let whole: SavedState<D> = stopped(&model, end);
-        let next = |spared: &usize| Some(spared + 1 + spared / 3);
+        let next = |spared: &usize| Some(spared + 1 + spared / 2);
+        let mut tried: Vec<SavedState<D>> = Vec::new();
         for spared in std::iter::successors(Some(0), next).take_while(|n| *n < MOST_QUESTIONS) {
             let stopped = stopped_within_a_step::<D>(&model, self.steps - 1, spared).state;
             let saved = stopped.expect("it left a state");
+            if tried.contains(&saved) {
+                continue;
+            }
             let rest = stopped_again(&model, &saved, end);
             assert!(rest == whole, "{off:e} beyond the diagonal, {spared} questions in the step");
             if saved.step() == self.steps {
                 return;
             }
+            tried.push(saved);
         }
         panic!("the step does not end");
     }

@@ -277,7 +277,8 @@ fn walk(seed: u64, n: usize) -> Result<(), String> {
 
 #[test]
 fn walks_near_contact_get_all_the_meshes_they_need() {
-    for seed in 0..6 {
+    // Of those of the long test, which has all, one in each kind of domain
+    for seed in [0, 2, 3, 4] {
         walk(seed, 1).unwrap_or_else(|error| panic!("{error}"));
     }
 }

@@ -325,7 +325,7 @@ fn a_mesh_that_is_replaced_after_a_run_was_resumed_is_that_of_the_unbroken_run()
             "{ wall = '1 h', time = 0.3, keep = 99 }",
         )
         .replace("output.fields = { time = 0.02 }", "output.fields = 'never'")
-        .replace("step = 0.01, end = 0.4", "step = 0.03, end = 4.2");
+        .replace("step = 0.01, end = 0.4", "step = 0.03, end = 3.6");
     std::fs::write(directory.join("case.toml"), text).unwrap();
     let whole = run(directory, "whole", &[]);
     assert_eq!(whole.status.code(), Some(0), "{}", told(&whole));

@@ -90,7 +90,7 @@ fn off(outcome: &RunSummary) -> (f64, Vector3<f64>) {
 fn a_given_bend_is_kept_while_the_pair_turns() {
     let angle = "sine = { amplitude = 0.5, period = 0.8 }";
     let joint = format!("kind.bent = {{ angle = {{ {angle} }}, axis = [2.0, -1.0, 2.0] }}");
-    let outcome = run(&pair(&joint, 0.02));
+    let outcome = run(&pair(&joint, 0.04));
     let (apart, turned) = off(&outcome);
     let wanted = 0.5 * (0.5 * std::f64::consts::PI).sin();
     assert!(apart < 1e-12, "{apart:e}");

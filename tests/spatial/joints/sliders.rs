@@ -127,11 +127,11 @@ fn the_force_of_a_rate_is_that_which_makes_the_rate() {
     force_and_rate_agree::<3>();
 }
 
-/// Length at the end with a size of steps, from a spring that lets go.
-fn relaxed<const D: usize>(step: f64) -> f64 {
+/// Length after a time (s) with a size of steps, from a spring that lets go.
+fn relaxed<const D: usize>(end: f64, step: f64) -> f64 {
     let pair = Pair {
         fluid: STOKES,
-        time: format!("time.unsteady = {{ step = {step}, end = 0.8 }}"),
+        time: format!("time.unsteady = {{ step = {step}, end = {end} }}"),
         parent: "",
         along: askew::<D>(),
         length: 1.3,
@@ -155,11 +155,11 @@ fn ratio(coarse: f64, middle: f64, fine: f64) -> f64 {
 
 #[test]
 fn a_spring_relaxes_with_the_second_order_of_the_steps() {
-    let [coarse, middle, fine] = [0.04, 0.02, 0.01].map(relaxed::<2>);
+    let [coarse, middle, fine] = [0.04, 0.02, 0.01].map(|step| relaxed::<2>(0.8, step));
     figure!(ratio(coarse, middle, fine), "planar spring");
     assert!(coarse > 1.35, "{coarse}");
     assert!((3.2..5.0).contains(&ratio(coarse, middle, fine)));
-    let [coarse, middle, fine] = [0.1, 0.05, 0.025].map(relaxed::<3>);
+    let [coarse, middle, fine] = [0.1, 0.05, 0.025].map(|step| relaxed::<3>(0.4, step));
     figure!(ratio(coarse, middle, fine), "spatial spring");
     assert!((3.2..5.0).contains(&ratio(coarse, middle, fine)));
 }
@@ -167,11 +167,11 @@ fn a_spring_relaxes_with_the_second_order_of_the_steps() {
 /// A pair with inertia that a torque turns while spring and motor work on its arm, beyond where the velocity
 /// of the child that is an unknown is another one.
 fn turning<const D: usize>(joint: String) -> Pair {
-    let (along, parent) = match D {
-        2 => ([0.75, 0.66, 0.0], ", torque = 6.0"),
-        _ => ([0.60, 0.58, 0.55], ", torque = [0.0, 0.0, 6.0]"),
+    let (along, parent, end) = match D {
+        2 => ([0.75, 0.66, 0.0], ", torque = 6.0", 0.4),
+        _ => ([0.60, 0.58, 0.55], ", torque = [0.0, 0.0, 6.0]", 0.24),
     };
-    let time = "time.unsteady = { step = 0.02, end = 0.4 }".to_owned();
+    let time = format!("time.unsteady = {{ step = 0.02, end = {end} }}");
     Pair { fluid: INERTIA, time, parent, along, length: 1.2, joint }
 }
 

@@ -387,6 +387,10 @@ fn is_same_file(one: &str, other: &str) -> bool {
 
 /// Cylinders that go through a box are as long as it is.
 fn complete_cylinders(case: &mut Case) {
+    // The extent of the inside of a surface takes its mesh
+    if !case.body.iter().any(|body| matches!(body.shape, ShapeSpec::Cylinder { .. })) {
+        return;
+    }
     let lengths = case.extent().lengths();
     for body in &mut case.body {
         if let ShapeSpec::Cylinder { axis, length, .. } = &mut body.shape {

@@ -10,7 +10,7 @@ use crate::command_line::{DISC, FLUID};
 /// A run with checkpoints all the time.
 const RUN: &str = "
 mesh = { size = 0.1, surface = 0.06 }
-time.unsteady = { step = 0.01, end = 2.0 }
+time.unsteady = { step = 0.01, end = 1.2 }
 output.checkpoint = { wall = '0.02 s', keep = 2 }
 ";
 

@@ -320,14 +320,14 @@ fn the_tasks_of_a_job_script_make_all_points_and_go_back_into_the_queue() {
     assert_eq!((output.status.code(), output.stdout.len()), (Some(10), 0));
 
     // The array is as long as Slurm allows
-    let many = format!("{MODE}=-3:3:5000");
+    let many = format!("{MODE}=-3:3:1100");
     let script =
-        done(place.path(), &["sweep", "script", "squirmer-alone", "--set", &many, "--jobs", "2"]);
-    assert!(script.contains("#SBATCH --array=0-833\n") && script.contains("* 6 + 1"), "{script}");
-    let few = ["sweep", "script", "squirmer-alone", "--set", &many, "--per-task", "2"];
+        done(place.path(), &["sweep", "script", "squirmer-alone", "--set", &many, "--jobs", "3"]);
+    assert!(script.contains("#SBATCH --array=0-366\n") && script.contains("* 3 + 1"), "{script}");
+    let few = ["sweep", "script", "squirmer-alone", "--set", &many, "--per-task", "1"];
     let refused = alewife(place.path(), &few);
     assert!(
-        told(&refused).contains("2500 tasks, and an array has 1001 at most"),
+        told(&refused).contains("1100 tasks, and an array has 1001 at most"),
         "{}",
         told(&refused)
     );
