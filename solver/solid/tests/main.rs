@@ -3,6 +3,7 @@
 mod beams;
 mod benchmarks;
 mod convergence;
+mod cook;
 mod incompressible;
 mod meshes;
 mod patch;

@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use alewife_mesh::{Encoding, write_msh, write_vtu};
+use alewife_mesh::{Encoding, Mesh, write_msh, write_vtu};
+use alewife_reduced::tier::{Model, rest_mesh};
 
 use super::exit::{Exit, Failure};
 use super::read::read_case;
 use super::style::say;
 use crate::case::CaseFile;
+use crate::case::soft::SoftFile;
 use crate::observer::write_atomic;
 use crate::run::{Dimension, Solve, build_mesh};
 use crate::runner::with_key;
@@ -24,10 +26,15 @@ pub struct Target {
 /// Makes the mesh of a case, writes it as VTU, or as MSH where the name of the file ends so, and reports
 /// its quality.
 pub fn mesh(argument: &str, settings: &[String], target: Target) -> Result<Exit, Failure> {
-    let file = read_case(argument, settings)?;
-    let path = target
-        .out
-        .unwrap_or_else(|| PathBuf::from(format!("{}.vtu", file.full_name().replace('/', "-"))));
+    let soft = SoftFile::read_if_soft(argument, settings)?;
+    let file = match &soft {
+        Some(_) => None,
+        None => Some(read_case(argument, settings)?),
+    };
+    let name = soft.as_ref().map(SoftFile::directory_name);
+    let of_flow = || file.as_ref().map(|file| file.full_name().replace('/', "-"));
+    let name = name.or_else(of_flow).unwrap_or_default();
+    let path = target.out.unwrap_or_else(|| PathBuf::from(format!("{name}.vtu")));
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let is_file = !std::fs::metadata(&path).is_ok_and(|found| !found.is_file());
     let ending = ending.as_deref();
@@ -46,36 +53,49 @@ pub fn mesh(argument: &str, settings: &[String], target: Target) -> Result<Exit,
             return Err(Failure::new(Exit::Usage, reason));
         }
     };
-    match file.case().geometry.dimensions() {
-        2 => write::<2>(&file, &path, encoding),
-        _ => write::<3>(&file, &path, encoding),
+    match (&soft, &file) {
+        (Some(file), _) if file.case.geometry.dimensions() == 2 => {
+            write::<2>(&rest_mesh(&Model::new(file)?), &path, encoding)
+        }
+        (Some(file), _) => write::<3>(&rest_mesh(&Model::new(file)?), &path, encoding),
+        (None, Some(file)) if file.case().geometry.dimensions() == 2 => {
+            write::<2>(&of_flow_domain(file)?, &path, encoding)
+        }
+        (None, Some(file)) => write::<3>(&of_flow_domain(file)?, &path, encoding),
+        (None, None) => Ok(Exit::Done),
     }
 }
 
+/// The mesh of the fluid.
+fn of_flow_domain<const D: usize>(file: &CaseFile) -> Result<Mesh<D>, Failure>
+where
+    Dimension<D>: Solve<D>,
+{
+    build_mesh::<D>(&file.model).map_err(|error| with_key(file, error))
+}
+
 fn write<const D: usize>(
-    file: &CaseFile,
+    mesh: &Mesh<D>,
     path: &Path,
     encoding: Option<Encoding>,
 ) -> Result<Exit, Failure>
 where
     Dimension<D>: Solve<D>,
 {
-    let mesh = build_mesh::<D>(&file.model);
-    let mesh = mesh.map_err(|error| with_key(file, error))?;
     let failed = |error: std::io::Error| {
         Failure::new(Exit::InputOutput, format!("cannot write {}: {error}", path.display()))
     };
     let mut bytes = Vec::new();
     match encoding {
-        Some(encoding) => write_msh(&mut bytes, &mesh, encoding),
-        None => write_vtu(&mut bytes, &mesh, None, &[], &[]),
+        Some(encoding) => write_msh(&mut bytes, mesh, encoding),
+        None => write_vtu(&mut bytes, mesh, None, &[], &[]),
     }
     .map_err(failed)?;
     // A pipe or a device is written to, not replaced
     let is_special = std::fs::metadata(path).is_ok_and(|found| !found.is_file());
     if is_special { std::fs::write(path, &bytes) } else { write_atomic(path, &bytes) }
         .map_err(failed)?;
-    say(Dimension::<D>::quality(&mesh).to_string().trim_end());
+    say(Dimension::<D>::quality(mesh).to_string().trim_end());
     say(&format!("written to {}", path.display()));
     Ok(Exit::Done)
 }

@@ -50,8 +50,8 @@ pub struct CheckedCase {
 pub fn read_and_check(argument: &str, settings: &[String]) -> Result<CheckedCase, Failure> {
     if SoftFile::read_if_soft(argument, settings)?.is_some() {
         let message = format!(
-            "{argument} is a soft case, an elastic body without a flow: use run --fidelity soft, check, show, \
-             calibrate, optimise or loop"
+            "{argument} is a soft case, an elastic body without a flow: use run --fidelity soft, sweep, \
+             check, show, mesh, calibrate, optimise or loop"
         );
         return Err(Failure::new(Exit::Usage, message));
     }

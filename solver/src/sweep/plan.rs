@@ -6,8 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::case_hash::keys_of;
-use super::directory::SweepDirectoryError;
-use crate::case::Sweep;
+use crate::case::{CaseError, Sweep};
 
 /// Differences that a message lists at most.
 const MOST_LISTED: usize = 12;
@@ -39,14 +38,18 @@ impl Plan {
     ///
     /// # Errors
     /// When the case of its first point is wrong, or cannot be written.
-    pub fn new(sweep: &Sweep) -> Result<Self, SweepDirectoryError> {
+    pub fn new(sweep: &Sweep) -> Result<Self, CaseError> {
         let swept: Vec<String> = sweep.keys().into_iter().map(str::to_owned).collect();
         let first = if sweep.is_soft() {
             serde_json::to_value(sweep.soft_case(0)?.case)
         } else {
             serde_json::to_value(sweep.case(0)?.case())
         };
-        let mut keys = keys_of(&first.map_err(std::io::Error::from)?);
+        let first = first.map_err(|error| CaseError::Unreadable {
+            path: sweep.file().into(),
+            source: error.into(),
+        })?;
+        let mut keys = keys_of(&first);
         keys.retain(|key, _| !swept.iter().any(|swept| is_within(key, swept)));
         Ok(Self {
             alewife: env!("CARGO_PKG_VERSION").to_owned(),

@@ -1,6 +1,8 @@
 //! Soft cases from the command line: what is run, found and refused, and what is written.
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
 
+mod everywhere;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};

@@ -1,11 +1,15 @@
 //! The deforming body as VTU files, for ParaView and for pictures.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
 use std::path::Path;
 
-use alewife_mesh::{Array, Mesh, NodeId, Point, Topology, write_vtu};
+use alewife_mesh::{
+    Array, Boundary, BoundaryId, BoundaryKind, CellId, Facet, Mesh, NodeId, Point, Simplex,
+    Topology, write_vtu,
+};
 use alewife_solid::solid::SolidMesh;
 
 use super::mesh::{Bodies, SolidOf};
@@ -72,11 +76,37 @@ where
     write_whole(&directory.join("fields.pvd"), list)
 }
 
-/// The mesh of a body at rest, on quadratic cells, in files' order.
+/// The mesh of a body at rest, on quadratic cells, whose boundary is `surface`.
 #[must_use]
 pub fn rest_mesh<const D: usize>(model: &Model<D>) -> Mesh<D> {
     let own = &model.body.solid.spec().mesh;
-    Mesh::new(own.quadratic().nodes, topology(own))
+    let mut topology = topology(own);
+    let boundary = Boundary { name: "surface".to_owned(), kind: BoundaryKind::Side };
+    topology.boundaries.push(boundary);
+    topology.facets = facets(own);
+    Mesh::new(own.quadratic().nodes, topology)
+}
+
+/// The facets of the surface as sides of cells.
+fn facets<const D: usize>(mesh: &SolidMesh<D>) -> Vec<Facet> {
+    let sorted = |nodes: &mut dyn Iterator<Item = usize>| -> Vec<usize> {
+        let mut nodes: Vec<usize> = nodes.collect();
+        nodes.sort_unstable();
+        nodes
+    };
+    let outer: BTreeSet<Vec<usize>> =
+        mesh.facets.iter().map(|facet| sorted(&mut facet.nodes[..D].iter().copied())).collect();
+    let mut found = Vec::new();
+    for (cell, nodes) in mesh.cells.chunks_exact(mesh.n_local()).enumerate() {
+        for (side, number) in (0_u8..).zip(0..Simplex::<D>::FACETS.len()) {
+            let vertices = Simplex::<D>::facet_vertices(number);
+            if outer.contains(&sorted(&mut vertices.iter().map(|local| nodes[*local]))) {
+                let boundary = BoundaryId::new(0);
+                found.push(Facet { cell: CellId::new(cell), side, boundary });
+            }
+        }
+    }
+    found
 }
 
 /// Components of all points in one list.

@@ -124,8 +124,8 @@ impl<'a, const D: usize> Potential<'a, D> {
         Some(Slope { value, slope, scale, known })
     }
 
-    /// Its second derivatives by the unknowns, with what laws ask of deformations where that is known; none where a cell is
-    /// turned over.
+    /// Its second derivatives by the unknowns, with what laws ask of deformations where that is known; none where a
+    /// cell is turned over.
     pub(super) fn curvature(
         &self,
         places: &[f64],

@@ -57,7 +57,8 @@ impl Sensitivity {
 
 impl<const D: usize> Solid<D> {
     /// Solves the linear system of a potential at its minimum for a list of all components, as the adjoint
-    /// of a step asks for: by iterations where factors at hand are near, else by new ones, which are kept. Zero where held. What laws ask of deformations may be known, of all points or of none.
+    /// of a step asks for: by iterations where factors at hand are near, else by new ones, which are kept. Zero where
+    /// held. What laws ask of deformations may be known, of all points or of none.
     ///
     /// # Errors
     /// [`SolidError::TurnedOver`], and [`SolidError::Singular`] where the state is no minimum.
@@ -88,7 +89,8 @@ impl<const D: usize> Solid<D> {
     }
 
     /// Derivatives of z . r at a state, the slope r of a potential with inertia or without; `levels` are those
-    /// of its damping, which matter for the shape. What laws ask of deformations may be known, of all points or of none.
+    /// of its damping, which matter for the shape. What laws ask of deformations may be known, of all points or of
+    /// none.
     ///
     /// # Errors
     /// [`SolidError::TurnedOver`], and [`SolidError::Rigid`] for the shape where parts are rigid.

@@ -8,7 +8,7 @@ use super::print_comparisons;
 use crate::case::{Case, CaseFile, Severity, TimeSettings, check, check_reduced, significant};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::print_warnings;
-use crate::cli::soft::hold;
+use crate::cli::soft::{hold, not_written};
 use crate::cli::style::say;
 use crate::observer::{Motion, MotionRecord, RunLock, Status, write_atomic};
 use crate::reduced::{ReducedError, simulate};
@@ -59,33 +59,10 @@ pub fn run(request: &Request<'_>) -> Result<Exit, Failure> {
         }
     }
     let out = directory(request, &file)?;
-    let failed = |error: std::io::Error| {
-        Failure::new(Exit::InputOutput, format!("{}: {error}", out.display()))
-    };
     let _held = begin(&out, &file)?;
-    let end = match &file.case().time {
-        TimeSettings::Unsteady(settings) => settings.end,
-        TimeSettings::Steady(_) => 0.0,
-    };
-    let run = Motion { fidelity: MODEL, steps: 0, end, dofs: 0 };
-    let record = MotionRecord::begin(&out, &run).map_err(failed)?;
     let begun = Instant::now();
-    let series = match simulate(&file.model) {
-        Ok(series) => series,
-        Err(error) => {
-            let exit = match error {
-                ReducedError::Unknown(_) => Exit::BadCase,
-                ReducedError::Tree(_) => Exit::Diverged,
-            };
-            record.fail(&error.to_string()).map_err(failed)?;
-            return Err(Failure::new(exit, error.to_string()));
-        }
-    };
+    let series = moved(&out, &file)?;
     let seconds = begun.elapsed().as_secs_f64();
-    write(&out, &series).map_err(failed)?;
-    let steps = series.times.len().saturating_sub(1);
-    let end = series.times.last().copied().unwrap_or(end);
-    record.finish(&Motion { steps, end, ..run }).map_err(failed)?;
     report(&file, &series);
     // References of a case with a mesh are those of its flow
     let is_compared = file.case().is_reduced_only() && !file.case().reference.is_empty();
@@ -105,6 +82,33 @@ pub fn run(request: &Request<'_>) -> Result<Exit, Failure> {
         out.display()
     ));
     Ok(exit)
+}
+
+/// Moves the model, and writes what comes out.
+fn moved(out: &Path, file: &CaseFile) -> Result<Series, Failure> {
+    let failed = |error: std::io::Error| not_written(out, &error);
+    let end = match &file.case().time {
+        TimeSettings::Unsteady(settings) => settings.end,
+        TimeSettings::Steady(_) => 0.0,
+    };
+    let run = Motion { fidelity: MODEL, steps: 0, end, dofs: 0 };
+    let record = MotionRecord::begin(out, &run).map_err(failed)?;
+    let series = match simulate(&file.model) {
+        Ok(series) => series,
+        Err(error) => {
+            let exit = match error {
+                ReducedError::Unknown(_) => Exit::BadCase,
+                ReducedError::Tree(_) => Exit::Diverged,
+            };
+            record.fail(&error.to_string()).map_err(failed)?;
+            return Err(Failure::new(exit, error.to_string()));
+        }
+    };
+    write(out, &series).map_err(failed)?;
+    let steps = series.times.len().saturating_sub(1);
+    let end = series.times.last().copied().unwrap_or(end);
+    record.finish(&Motion { steps, end, ..run }).map_err(failed)?;
+    Ok(series)
 }
 
 /// Where the run goes: not over one of the full solver, nor over another unless that is asked for.
@@ -133,8 +137,7 @@ fn begin(out: &Path, file: &CaseFile) -> Result<RunLock, Failure> {
         }
         write_atomic(&out.join("case.toml"), text.as_bytes())
     };
-    ready()
-        .map_err(|error| Failure::new(Exit::InputOutput, format!("{}: {error}", out.display())))?;
+    ready().map_err(|error| not_written(out, &error))?;
     Ok(held)
 }
 

@@ -4,6 +4,7 @@ mod fields;
 mod found;
 mod known;
 mod motion;
+mod one;
 mod records;
 mod run;
 mod states;
@@ -15,7 +16,7 @@ use clap::{Args, ValueHint};
 
 use super::exit::{Exit, Failure};
 use super::style::say;
-use crate::observer::{RunDirectory, Status};
+use crate::observer::RunDirectory;
 use crate::sweep::PLAN_FILE;
 use found::Found;
 
@@ -61,18 +62,12 @@ pub fn verify(options: &Options) -> Result<Exit, Failure> {
     Ok(if is_sound { Exit::Done } else { Exit::BadCase })
 }
 
-/// Looks at the run in a directory, by the model it was made with.
-fn one(directory: &Path) -> Found {
-    let model = Status::read(directory).ok().and_then(|status| status.fidelity);
-    model.map_or_else(|| run::verify(directory), |model| motion::verify(directory, &model))
-}
-
 fn look_at(directory: &Path) -> Result<Found, Failure> {
     if directory.join(PLAN_FILE).exists() {
         return Ok(sweep::verify(directory));
     }
     if RunDirectory::is_one(directory) {
-        return Ok(one(directory));
+        return Ok(one::verify(directory));
     }
     let reason = format!("{} is the directory of no run and no sweep", directory.display());
     Err(Failure::new(Exit::NoInput, reason))

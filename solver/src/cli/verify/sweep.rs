@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::found::Found;
+use super::one;
 use crate::case::SweepQuantity;
 use crate::observer::{RunDirectory, RunLock};
 use crate::sweep::{PointState, SweepDirectory, TABLE_FILE, collect, stand};
@@ -27,7 +28,7 @@ pub fn verify(directory: &Path) -> Found {
             found.wrong(&below, failure.reason);
         }
         if RunDirectory::is_one(&path) && !RunLock::is_held(&path, &[]) {
-            found.take_in(&below, super::one(&path));
+            found.take_in(&below, one::verify(&path));
         }
     }
     found.count("points", n);

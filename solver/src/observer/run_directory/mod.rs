@@ -20,7 +20,7 @@ mod write_times;
 pub(super) use bodies::{joint_ends, write_bodies};
 pub use checkpoint_list::checkpoints;
 pub use legs::LegFile;
-pub use motion_record::{Motion, MotionRecord};
+pub use motion_record::MotionRecord;
 pub use provenance::{Leg, Origin, Point, Provenance, checksum, executable};
 pub(super) use read_back::SERIES_FILE;
 pub use read_back::{Frame, History, frames, read_outcome, read_series};
@@ -32,5 +32,5 @@ pub use run_directory::{
 pub(super) use run_directory::{FAILURE_FLOW, remove_failure};
 pub use run_directory_error::RunDirectoryError;
 pub use run_lock::{LOCK_FILE, LockError, RunLock};
-pub use status::{RunState, Status, StatusFile};
+pub use status::{Motion, RunState, Status, StatusFile};
 pub use write_times::WriteTimes;

@@ -6,22 +6,9 @@ use std::time::Instant;
 
 use super::marker::mark;
 use super::provenance::{Origin, Point, Provenance};
-use super::status::{RunState, Status};
+use super::status::{Motion, RunState, Status};
 use crate::observer::system::process;
 use crate::timing::cpu_seconds;
-
-/// What a run without a flow is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
-    /// Its model, by its name on the command line.
-    pub fidelity: &'static str,
-    /// Its steps, once they are made.
-    pub steps: usize,
-    /// Time at which it ends (s).
-    pub end: f64,
-    /// Its unknowns.
-    pub dofs: usize,
-}
 
 /// Writes where a run without a flow stands: `status.json` and `provenance.json`.
 #[derive(Debug)]

@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::motion_record::Motion;
 use super::read_back::History;
 use super::restarts::Restarts;
 use super::write_times::WriteTimes;
@@ -56,6 +55,19 @@ pub struct FirstRow {
     pub time: f64,
     /// Wall-clock seconds since the start of the process's run.
     pub wall: f64,
+}
+
+/// What a run without a flow is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Its model, by its name on the command line.
+    pub fidelity: &'static str,
+    /// Its steps, once they are made.
+    pub steps: usize,
+    /// Time at which it ends (s).
+    pub end: f64,
+    /// Its unknowns.
+    pub dofs: usize,
 }
 
 /// The content of `status.json`.
