@@ -5,7 +5,7 @@ mod calibration;
 mod fish;
 mod guided;
 mod mutations;
-mod tables;
+pub mod tables;
 mod vehicle;
 
 use std::process::Command;
