@@ -36,6 +36,7 @@ class Pid:
     """Proportional and integral in velocities, proportional and differential in angles."""
 
     def __init__(self) -> None:
+        """Begin with nothing summed up."""
         self.sums = np.zeros(3)
 
     def actions(self, lacks: np.ndarray, angles: np.ndarray, rates: np.ndarray) -> np.ndarray:
@@ -75,7 +76,9 @@ def fly(task: str, n: int) -> None:
             print(seed, info["reason"])
     what = "velocity (m/s)" if task == "hold" else "distance from the line (m)"
     print(f"{what} that lacks: {np.mean(off):.4f} in the mean, {np.max(off):.4f} at most")
-    print(f"reward of an episode: {np.mean(returns):.1f} in the mean, {np.min(returns):.1f} at least")
+    print(
+        f"reward of an episode: {np.mean(returns):.1f} in the mean, {np.min(returns):.1f} at least"
+    )
 
 
 if __name__ == "__main__":
