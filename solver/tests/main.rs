@@ -1,6 +1,7 @@
 //! The program, from its command line.
 
 mod command_line;
+mod driven;
 mod endings;
 mod environment;
 mod gradients;

@@ -126,7 +126,7 @@ const FOREIGN: [(&str, &[&str]); 9] = [
             "solver/solid/src/solid/cholesky.rs",
         ],
     ),
-    ("basin", &["solver/reduced/src/search/minimise.rs"]),
+    ("basin", &["solver/reduced/src/search/minimise.rs", "solver/reduced/src/search/methods.rs"]),
     ("pulp", &["solver/flow/src/flow/", "solver/linear/src/multifrontal/"]),
     ("metis_sys", &["solver/linear/src/multifrontal/ordering/metis.rs"]),
     ("spade", &["mesh/src/planar/generate/"]),

@@ -83,7 +83,9 @@ pub use spec::optimisation::{
 };
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
 pub use spec::profile::{ColumnAxis, ProfileColumn, ProfileSpec};
-pub use spec::reduced::calibration::{CalibrationSpec, FitBy, FitName, RecordFrame, RecordSpec};
+pub use spec::reduced::calibration::{
+    CalibrationSpec, FitBy, FitName, ProposalSpec, Proposer, RecordFrame, RecordSpec,
+};
 pub use spec::reduced::law::{Coefficient, LoadLaw};
 pub use spec::reduced::mechanics::{EllipsoidSpec, KeelSpec, ServoSpec, SiteSpec, TendonSpec};
 pub use spec::reduced::parts::{

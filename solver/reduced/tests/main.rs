@@ -4,6 +4,7 @@ mod cases;
 mod given;
 mod gradients;
 mod kept_volumes;
+mod proposals;
 mod rigid_parts;
 mod searches;
 mod shipped;

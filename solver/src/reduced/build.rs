@@ -268,7 +268,7 @@ impl<'a> Builder<'a> {
             displaced: model.case.fluid.density * volume,
             buoyancy_center: inside.then(&Pose::at(center - solid.center)).position,
         });
-        let law = Law::new(&model.case, &self.spec, &solid);
+        let law = Law::new(&model.case, &self.spec, &solid).of_tail(self.tail(body));
         let place = law.place(&solid);
         let coefficients = self.spec.coefficients_of(&one.name);
         let own = self.spec.ellipsoid.iter().filter(|ellipsoid| ellipsoid.body == one.name);
@@ -280,6 +280,22 @@ impl<'a> Builder<'a> {
         let part = Part { link: number, inside, mass, inertia, law, coefficients, place, pieces };
         link.loads.extend(part.loads(&part.coefficients));
         self.parts[body] = Some(part);
+    }
+
+    /// Where the head is from the tail, the last body of a chain: 1 along its x axis, or -1; none of other bodies.
+    fn tail(&self, body: usize) -> Option<f64> {
+        let (model, solid) = (self.model, &self.solids[body]);
+        let name = &model.bodies[body].name;
+        let is_of_it = |joint: &&crate::case::Joint| {
+            let [parent, child] = [&joint.parent, &joint.child].map(|end| end == name);
+            (parent || child) && !model.hangs_on_laboratory(joint)
+        };
+        let mut joints = model.joints.iter().filter(is_of_it);
+        let (Some(joint), None) = (joints.next(), joints.next()) else { return None };
+        let [on_parent, on_child] = joint.ends();
+        let end = if joint.child == *name { on_child } else { on_parent };
+        let is_ahead = end.x >= solid.center.x + solid.middle.x;
+        (body + 1 == model.bodies.len()).then_some(if is_ahead { 1.0 } else { -1.0 })
     }
 
     /// Hangs a body on its parent, or on the laboratory.

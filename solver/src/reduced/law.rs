@@ -1,8 +1,8 @@
 //! `Law`: what the fluid does to a body by the law of a case, over any kind of number.
 
 use alewife_reduced::tree::loads::{
-    AddedMass, Ellipsoid, EllipsoidCoefficients, Lift, Load, Resistive, StripCoefficients, Strips,
-    Vehicle,
+    AddedMass, Ellipsoid, EllipsoidCoefficients, ElongatedLink, Lift, Load, Resistive,
+    StripCoefficients, Strips, Vehicle, elongated_mass,
 };
 use alewife_reduced::tree::{Number, real};
 use nalgebra::Vector3;
@@ -19,6 +19,10 @@ pub(super) struct Law {
     semi_axes: Vector3<f64>,
     density: f64,
     viscosity: f64,
+    /// Height across the plane (m).
+    depth: f64,
+    /// Where the head is from a tail, 1 along x or -1; none of bodies that are no tail.
+    tail: Option<f64>,
 }
 
 impl Law {
@@ -38,7 +42,14 @@ impl Law {
             semi_axes: solid.semi_axes,
             density: case.fluid.density,
             viscosity: case.reference_viscosity(),
+            depth: spec.depth.unwrap_or(1.0),
+            tail: None,
         }
+    }
+
+    /// The same law for a tail.
+    pub fn of_tail(self, tail: Option<f64>) -> Self {
+        Self { tail, ..self }
     }
 
     /// The same law for an ellipsoid of other semi-axes (m).
@@ -63,19 +74,12 @@ impl Law {
         let (density, viscosity) = (real(self.density), real(self.viscosity));
         let six = |from: usize| std::array::from_fn(|k| c(from + k));
         Some(match self.loads {
-            LoadLaw::Links => Load::Strips(Strips {
-                half_length: axes.x,
-                half_width: axes.y,
-                depth: real(1.0),
-                density,
-                viscosity,
-                coefficients: StripCoefficients {
-                    added_mass: c(0),
-                    normal_linear: c(1),
-                    normal_quadratic: c(2),
-                    tangential_linear: c(3),
-                    tangential_quadratic: c(4),
-                },
+            LoadLaw::Links => Load::Strips(self.strips(&[c(0), c(1), c(2), c(3), c(4)])),
+            // A depth, as all loads of the plane
+            LoadLaw::Ebt => Load::Elongated(ElongatedLink {
+                drag: self.strips(&[real(0.0), c(1), c(2), c(3), c(4)]),
+                mass: elongated_mass(density, real(self.depth), c(0)) / self.depth,
+                tail: self.tail,
             }),
             LoadLaw::Resistive => Load::Resistive(Resistive {
                 length: axes.x * 2.0,
@@ -95,5 +99,23 @@ impl Law {
             }
             LoadLaw::Connection => return None,
         })
+    }
+
+    /// Strips of the body, a depth.
+    fn strips<T: Number>(&self, [added_mass, one, two, three, four]: &[T; 5]) -> Strips<T> {
+        Strips {
+            half_length: real(self.semi_axes.x),
+            half_width: real(self.semi_axes.y),
+            depth: real(1.0),
+            density: real(self.density),
+            viscosity: real(self.viscosity),
+            coefficients: StripCoefficients {
+                added_mass: *added_mass,
+                normal_linear: *one,
+                normal_quadratic: *two,
+                tangential_linear: *three,
+                tangential_quadratic: *four,
+            },
+        }
     }
 }

@@ -17,7 +17,10 @@ mod play;
 mod simulate;
 mod swimmer;
 
-pub use calibrate::{CalibrateError, Calibrated, Deviation, Overlay, calibrate, check_records};
+pub use calibrate::{
+    CalibrateError, Calibrated, Deviation, JOURNAL, Overlay, Tally, calibrate, calibrate_in,
+    check_records,
+};
 pub use error::ReducedError;
 pub use play::{Player, Playing, Scratch};
 pub use simulate::simulate;

@@ -2,8 +2,8 @@
 
 use alewife_interrupt::{Stopped, is_requested};
 use alewife_reduced::tree::{
-    Connection, Drift, Number, Scheme, State, Stepper, Tree, TreeError, Twist, compiled::Compiled,
-    magnus, real,
+    Command, Connection, Drift, Inputs, Number, Scheme, State, Stepper, Tree, TreeError, Twist,
+    compiled::Compiled, magnus,
 };
 
 use super::acting::Acting;
@@ -11,13 +11,81 @@ use super::build::Reduced;
 use super::inputs::pushes::Propeller;
 
 /// By which equations a tree moves.
-enum Rule<T: Number> {
+pub(super) enum Rule<T: Number> {
     /// Steps with inertia.
     Steps(Box<Stepper<T>>),
     /// The balance of forces without.
     Drift(Box<Drift<T>>),
     /// The table of a connection.
-    Table(Connection, Vec<usize>),
+    Table,
+}
+
+impl<T: Compiled> Rule<T> {
+    /// That of a case.
+    ///
+    /// # Errors
+    /// `TreeError` when nothing resists a motion.
+    pub fn new(reduced: &Reduced, tree: &Tree<T>) -> Result<Self, TreeError> {
+        Ok(if reduced.connection.is_some() {
+            Self::Table
+        } else if reduced.has_inertia {
+            Self::Steps(Box::new(Stepper::new(tree, Scheme::Midpoint)))
+        } else {
+            Self::Drift(Box::new(Drift::new(tree.clone())?))
+        })
+    }
+
+    /// Finds the velocities of a state, where there is no inertia: they follow from where the joints are.
+    ///
+    /// # Errors
+    /// `TreeError` when a joint is outside of a table.
+    pub fn begin(
+        &mut self,
+        reduced: &Reduced,
+        state: &mut State<T>,
+        inputs: &impl Inputs<T>,
+    ) -> Result<(), TreeError> {
+        let time = state.time;
+        match (self, &reduced.connection) {
+            (Self::Table, Some((table, links))) => {
+                connect(reduced, table, links, state, &|link| inputs.command(time, link))?;
+            }
+            (Self::Drift(drift), _) => {
+                drift.twist(state, time, inputs)?;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Advances a state by a step (s); its time stays.
+    ///
+    /// # Errors
+    /// `TreeError` when the step fails.
+    pub fn step(
+        &mut self,
+        reduced: &Reduced,
+        tree: &Tree<T>,
+        state: &mut State<T>,
+        step: f64,
+        inputs: &dyn Inputs<T>,
+    ) -> Result<(), TreeError> {
+        match (self, &reduced.connection) {
+            (Self::Steps(stepper), _) => T::advance(stepper, tree, state, step, inputs),
+            (Self::Drift(drift), _) => T::drift(drift, state, step, inputs),
+            (Self::Table, Some((table, links))) => {
+                let (root, time) = (state.root, state.time);
+                let mut twist = |at: f64| {
+                    connect(reduced, table, links, state, &|link| inputs.command(at, link))
+                };
+                let moved = magnus(&root, time, step, &mut twist)?;
+                twist(time + step)?;
+                state.root = moved;
+                Ok(())
+            }
+            (Self::Table, None) => Ok(()),
+        }
+    }
 }
 
 /// What moves a tree, with what its thrusters remember.
@@ -35,22 +103,8 @@ impl<T: Compiled> Mover<T> {
     pub fn new(reduced: &Reduced, tree: Tree<T>, state: &mut State<T>) -> Result<Self, TreeError> {
         let propellers = reduced.propellers.clone();
         let acting = Acting { reduced, propellers: &propellers };
-        let rule = match &reduced.connection {
-            Some((table, links)) => {
-                let time = state.time;
-                connect(reduced, table, links, state, time)?;
-                Rule::Table(table.clone(), links.clone())
-            }
-            None if reduced.has_inertia => {
-                Rule::Steps(Box::new(Stepper::new(&tree, Scheme::Midpoint)))
-            }
-            None => {
-                let mut drift = Drift::new(tree.clone())?;
-                let time = state.time;
-                drift.twist(state, time, &acting)?;
-                Rule::Drift(Box::new(drift))
-            }
-        };
+        let mut rule = Rule::new(reduced, &tree)?;
+        rule.begin(reduced, state, &acting)?;
         Ok(Self { tree, rule, propellers })
     }
 
@@ -72,38 +126,28 @@ impl<T: Compiled> Mover<T> {
             propeller.advance(state.time, step);
         }
         let acting = Acting { reduced, propellers: &self.propellers };
-        match &mut self.rule {
-            Rule::Steps(stepper) => T::advance(stepper, &self.tree, state, step, &acting)?,
-            Rule::Drift(drift) => T::drift(drift, state, step, &acting)?,
-            Rule::Table(table, links) => {
-                let (root, time) = (state.root, state.time);
-                let twist = |at: f64| connect(reduced, table, links, state, at);
-                let moved = magnus(&root, time, step, twist)?;
-                state.root = moved;
-                connect(reduced, table, links, state, end)?;
-            }
-        }
+        self.rule.step(reduced, &self.tree, state, step, &acting)?;
         state.time = end;
         Ok(())
     }
 }
 
-/// The twist of the root by a table at a time, with all coordinates and velocities of the state as they are then.
+/// The twist of the root by a table and commands, with all coordinates and velocities of the state as they are then.
 fn connect<T: Number>(
     reduced: &Reduced,
     table: &Connection,
     links: &[usize],
     state: &mut State<T>,
-    time: f64,
+    asked: &dyn Fn(usize) -> Command<T>,
 ) -> Result<Twist<T>, TreeError> {
     let (mut places, mut rates) = (Vec::new(), Vec::new());
     for link in links {
-        let command = reduced.command(time, *link);
-        places.push(real(command.place));
-        rates.push(real(command.rate));
+        let command = asked(*link);
+        places.push(command.place);
+        rates.push(command.rate);
         if let Some(velocity) = reduced.tree.velocity_of(*link) {
-            state.coordinates[velocity] = real(command.place);
-            state.velocities[velocity] = real(command.rate);
+            state.coordinates[velocity] = command.place;
+            state.velocities[velocity] = command.rate;
         }
     }
     let twist = table.twist(&places, &rates)?;

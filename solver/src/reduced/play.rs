@@ -1,15 +1,15 @@
 //! `Player`: a reduced model that is asked for something while it moves, many motions of it side by side.
 
-use alewife_reduced::tree::{
-    Command as Asked, Drift, Inputs, Scheme, State, Stepper, TreeError, Wrench, compiled::Compiled,
-};
+use alewife_reduced::tree::{Command as Asked, Inputs, State, TreeError, Wrench};
 use nalgebra::Matrix3;
 
 use super::ReducedError;
 use super::acting::Acting;
 use super::build::Reduced;
+use super::inputs::pushes::{Propeller, PropellerMemory};
 use super::inputs::told::Told;
-use super::measure::{Last, Moving, Value, bodies_after, joint};
+use super::measure::{Last, Moving, Value, bodies_after, is_load, joint};
+use super::mover::Rule;
 use super::swimmer::Now;
 use crate::case::{
     BodyQuantity, Column, Command, Follower, JointQuantity, Model, Source, Stroke, SwimmerQuantity,
@@ -23,6 +23,8 @@ pub struct Player {
     commands: Vec<Command>,
     /// The command that each link waits for, by its number.
     waits: Vec<Option<usize>>,
+    /// The same of each thruster.
+    pushes: Vec<Option<usize>>,
     columns: Vec<Column>,
     /// Links below joints, in the order of the bodies that are their children.
     below: Vec<usize>,
@@ -49,45 +51,20 @@ pub struct Playing {
     followers: Vec<Follower>,
     /// Of each body over all turns (rad).
     angles: Vec<f64>,
+    /// Of each thruster.
+    memories: Vec<PropellerMemory>,
 }
 
 /// What a motion needs while it is moved, and not between: one for many of them.
 #[derive(Default)]
 pub struct Scratch {
     /// One for all trees with inertia, and one each for those without.
-    movers: Vec<Option<Mover>>,
+    rules: Vec<Option<Rule<f64>>>,
+    /// Of each sample.
+    propellers: Vec<Option<Vec<Propeller>>>,
     /// Commands at the beginning, the middle and the end of a step.
     values: Vec<[[f64; 2]; 3]>,
     before: Vec<Moving>,
-}
-
-/// What moves a tree: steps with inertia, or the balance of forces without.
-enum Mover {
-    Steps(Box<Stepper<f64>>),
-    Drift(Box<Drift<f64>>),
-}
-
-impl Mover {
-    fn new(reduced: &Reduced) -> Result<Self, TreeError> {
-        Ok(if reduced.has_inertia {
-            Self::Steps(Box::new(Stepper::new(&reduced.tree, Scheme::Midpoint)))
-        } else {
-            Self::Drift(Box::new(Drift::new(reduced.tree.clone())?))
-        })
-    }
-
-    fn step(
-        &mut self,
-        reduced: &Reduced,
-        state: &mut State<f64>,
-        step: f64,
-        inputs: &dyn Inputs<f64>,
-    ) -> Result<(), TreeError> {
-        match self {
-            Self::Steps(stepper) => f64::advance(stepper, &reduced.tree, state, step, inputs),
-            Self::Drift(drift) => f64::drift(drift, state, step, inputs),
-        }
-    }
 }
 
 /// Commands of a motion over a step.
@@ -96,6 +73,7 @@ struct Heard<'a> {
     followers: &'a [Follower],
     times: [f64; 3],
     values: &'a [[[f64; 2]; 3]],
+    propellers: &'a [Propeller],
 }
 
 impl Inputs<f64> for Heard<'_> {
@@ -117,7 +95,7 @@ impl Inputs<f64> for Heard<'_> {
 
     fn wrench(&self, time: f64, link: usize, rotation: &Matrix3<f64>) -> Option<Wrench<f64>> {
         let reduced = &self.player.reduced;
-        Acting { reduced, propellers: &[] }.wrench(time, link, rotation)
+        Acting { reduced, propellers: self.propellers }.wrench(time, link, rotation)
     }
 }
 
@@ -132,24 +110,29 @@ impl Player {
             return Err(unknown("a steady flow".to_owned()));
         };
         let reduced = Reduced::new(model)?;
-        // What thrusters remember, and velocities by a table, have no place in a motion that is played
-        if !reduced.propellers.is_empty() {
-            return Err(unknown("a thruster, in an environment".to_owned()));
-        }
-        if reduced.connection.is_some() {
-            return Err(unknown("a connection, in an environment".to_owned()));
+        let silent = columns.iter().find(|one| is_load(one.source));
+        if let Some(column) = silent.filter(|_| reduced.connection.is_some()) {
+            let name = &column.name;
+            return Err(unknown(format!("`{name}`: a connection has no loads")));
         }
         let all: Vec<Command> =
             commands.iter().filter_map(|name| model.commands.get(name).ok().cloned()).collect();
+        let number = |stroke: &Stroke| match stroke {
+            Stroke::Command(own) => all.iter().position(|one| one.is_clone_of(own)),
+            _ => None,
+        };
         let waits = reduced.told.iter().map(|told| match told {
-            Told::Given(Stroke::Command(own)) | Told::Effort(Stroke::Command(own)) => {
-                all.iter().position(|one| one.is_clone_of(own))
-            }
+            Told::Given(stroke) | Told::Effort(stroke) => number(stroke),
             _ => None,
         });
         let waits: Vec<Option<usize>> = waits.collect();
-        if let Some(name) = (0..commands.len()).find(|nth| !waits.contains(&Some(*nth))) {
-            return Err(unknown(format!("the command `{}`: it moves no joint", commands[name])));
+        let pushes = reduced.propellers.iter().map(|one| number(one.drive()));
+        let pushes: Vec<Option<usize>> = pushes.collect();
+        let is_heard = |nth: usize| waits.contains(&Some(nth)) || pushes.contains(&Some(nth));
+        if let Some(nth) = (0..commands.len()).find(|nth| !is_heard(*nth)) {
+            let what =
+                format!("the command `{}`: it moves no joint and no thruster", commands[nth]);
+            return Err(unknown(what));
         }
         let joined = (0..model.bodies.len()).filter(|body| model.joint_above(*body).is_some());
         let below = joined.map(|body| reduced.parts[body].link).collect();
@@ -158,6 +141,7 @@ impl Player {
         let mut player = Self {
             commands: all,
             waits,
+            pushes,
             columns: columns.to_vec(),
             below,
             swimmers,
@@ -181,13 +165,9 @@ impl Player {
     fn begin(&self, playing: &mut Playing) -> Result<(), TreeError> {
         let values = vec![[[0.0; 2]; 3]; self.commands.len()];
         let times = [f64::NAN; 3];
-        let heard = Heard { player: self, followers: &playing.followers, times, values: &values };
-        // Without inertia velocities follow from where the joints are
-        if let Mover::Drift(mut drift) = Mover::new(&self.reduced)? {
-            let time = playing.state.time;
-            drift.twist(&mut playing.state, time, &heard)?;
-        }
-        Ok(())
+        let Playing { state, followers, .. } = playing;
+        let heard = Heard { player: self, followers, times, values: &values, propellers: &[] };
+        Rule::new(&self.reduced, &self.reduced.tree)?.begin(&self.reduced, state, &heard)
     }
 
     /// How many quantities are measured.
@@ -201,7 +181,8 @@ impl Player {
     pub fn playing(&self) -> Playing {
         let followers = vec![Follower::new(); self.commands.len()];
         let state = self.start.clone();
-        let mut playing = Playing { state, n_steps: 0, followers, angles: Vec::new() };
+        let memories = self.reduced.propellers.iter().map(Propeller::memory).collect();
+        let mut playing = Playing { state, n_steps: 0, followers, angles: Vec::new(), memories };
         let bodies = bodies_after(&self.reduced, &playing.state, self.step, &|_| None, false);
         playing.angles = bodies.iter().map(|body| body.angle).collect();
         playing
@@ -213,6 +194,7 @@ impl Player {
         let n = |player: &Self| (player.start.velocities.len(), player.reduced.parts.len());
         n(self) == n(other)
             && self.waits == other.waits
+            && self.pushes == other.pushes
             && self.reduced.has_inertia == other.reduced.has_inertia
     }
 
@@ -234,32 +216,50 @@ impl Player {
         n_steps: usize,
     ) -> Result<(), ReducedError> {
         let slot = if self.reduced.has_inertia { 0 } else { sample };
-        if scratch.movers.len() <= slot {
-            scratch.movers.resize_with(slot + 1, || None);
+        if scratch.rules.len() <= slot {
+            scratch.rules.resize_with(slot + 1, || None);
+        }
+        if scratch.propellers.len() <= sample {
+            scratch.propellers.resize(sample + 1, None);
+        }
+        let Scratch { rules, propellers, values, before } = scratch;
+        let rule = match &mut rules[slot] {
+            Some(rule) => rule,
+            empty => empty.insert(Rule::new(&self.reduced, &self.reduced.tree)?),
+        };
+        let propellers = propellers[sample].get_or_insert_with(|| self.reduced.propellers.clone());
+        for (one, memory) in propellers.iter_mut().zip(&playing.memories) {
+            one.remember(memory);
         }
         for nth in 0..n_steps {
             if self.needs.accelerations && nth + 1 == n_steps {
-                scratch.before = self.moving(playing, false);
+                *before = self.moving(playing, false);
             }
-            let mover = match &mut scratch.movers[slot] {
-                Some(mover) => mover,
-                empty => empty.insert(Mover::new(&self.reduced)?),
-            };
             let end = self.step * (playing.n_steps + 1) as f64;
             let (start, step) = (playing.state.time, end - playing.state.time);
             let times = [start, start + 0.5 * step, start + step];
-            scratch.values.clear();
-            scratch.values.extend(
+            values.clear();
+            values.extend(
                 self.commands
                     .iter()
                     .zip(&playing.followers)
                     .map(|(command, follower)| times.map(|time| follower.at(command, time))),
             );
+            for (one, push) in propellers.iter_mut().zip(&self.pushes) {
+                // A step of one length: what a lag goes on by is made for that, whoever shares it
+                match push {
+                    Some(nth) => one.advance_by(values[*nth][1][0], self.step),
+                    None => one.advance(start, self.step),
+                }
+            }
             let Playing { state, followers, .. } = playing;
-            let heard = Heard { player: self, followers, times, values: &scratch.values };
-            mover.step(&self.reduced, state, step, &heard)?;
+            let heard = Heard { player: self, followers, times, values, propellers };
+            rule.step(&self.reduced, &self.reduced.tree, state, step, &heard)?;
             state.time = end;
             playing.n_steps += 1;
+        }
+        for (memory, one) in playing.memories.iter_mut().zip(propellers.iter()) {
+            *memory = one.memory();
         }
         let state = &playing.state;
         let place = state.root.position.iter().chain(&state.root.quaternion);

@@ -267,3 +267,124 @@ from = [{ csv = 'rows.csv', time = 't', columns = { 'log.x' = 'x' } }]
     let left = again.fit.cost / result.fit.cost - 1.0;
     assert!(left.abs() < 1e-6 && again.fit.promised < 1e-6, "{:?}", again.fit);
 }
+
+/// Each proposer finds what the twin was made with, says what was accepted, and goes on with the same bits.
+#[test]
+fn proposals_find_the_coefficients_of_a_twin() {
+    let bounds = "calibration.bounds={ added_mass = [0.2, 2.0], normal_quadratic = [0.5, 10.0], \
+                  tangential_quadratic = [0.05, 2.0] }";
+    for (proposer, evaluations, within) in
+        [("random", 150, None), ("nelder-mead", 250, Some(0.02)), ("cma-es", 500, Some(0.02))]
+    {
+        let search = format!(
+            "calibration.search={{ proposer = '{proposer}', evaluations = {evaluations} }}"
+        );
+        let result = calibrate(&read("eel-calibration", &[bounds, &search])).unwrap();
+        let tally = result.tally.as_ref().unwrap();
+        let [with, without] = tally.shares();
+        assert!(tally.n_evaluations <= evaluations && with > without, "{tally:?}");
+        assert!(result.fit.cost < 0.1 * result.fit.start_cost, "{proposer}: {:?}", result.fit);
+        for (name, expected) in
+            [("added_mass", 0.7), ("normal_quadratic", 4.5), ("tangential_quadratic", 0.5)]
+        {
+            let off = (found(&result, name) / expected - 1.0).abs();
+            assert!(within.is_none_or(|most| off < most), "{proposer} {name}: {off} {tally:?}");
+        }
+        assert!(
+            result.text().contains("accepted") && result.to_toml().contains("[calibrated.search]")
+        );
+    }
+}
+
+#[test]
+fn a_program_proposes_and_a_search_is_taken_up_again() {
+    let place = tempfile::tempdir().unwrap();
+    // Nearer to what the record was made with at each call
+    let script = "n=$(grep -o '\"accepted\"' | wc -l)
+echo \"{ \\\"values\\\": { \\\"added_mass\\\": 0.7, \\\"normal_quadratic\\\": 4.$n, \\\"tangential_quadratic\\\": 0.5 } }\"
+";
+    std::fs::write(place.path().join("propose.sh"), script).unwrap();
+    for (name, text) in [
+        ("record-slow.csv", include_str!("../../../cases/eel-calibration/record-slow.csv")),
+        ("record-fast.csv", include_str!("../../../cases/eel-calibration/record-fast.csv")),
+    ] {
+        std::fs::write(place.path().join(name), text).unwrap();
+    }
+    let case = |evaluations: usize, command: &str| {
+        let text = format!(
+            "extends = 'eel-calibration'
+[calibration]
+fit = ['added_mass', 'normal_quadratic', 'tangential_quadratic']
+[calibration.search]
+proposer = 'external'
+evaluations = {evaluations}
+command = {command}
+"
+        );
+        std::fs::write(place.path().join("case.toml"), text).unwrap();
+    };
+    let run = |out: &str, more: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_alewife"))
+            .args(["calibrate", "case.toml", "--out", out])
+            .args(more)
+            .current_dir(place.path())
+            .output()
+            .unwrap()
+    };
+    let told = |output: &std::process::Output| String::from_utf8_lossy(&output.stderr).into_owned();
+    let text = |out: &str| std::fs::read_to_string(place.path().join(out).join("calibrated.toml"));
+    case(12, "['sh', 'propose.sh']");
+    let output = run("whole", &["--quiet"]);
+    assert!(output.status.success(), "{}", told(&output));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.contains("external: 12 motions"), "{said}");
+    // Stopped after five, and gone on with: the same file, and other lines in the journal are left alone
+    case(5, "['sh', 'propose.sh']");
+    assert!(run("parts", &["--quiet"]).status.success());
+    std::fs::remove_file(place.path().join("parts/calibrated.toml")).unwrap();
+    case(12, "['sh', 'propose.sh']");
+    let output = run("parts", &[]);
+    assert!(output.status.success(), "{}", told(&output));
+    assert!(told(&output).contains("[6/12]") && !told(&output).contains("[5/12]"));
+    assert_eq!(text("parts").unwrap(), text("whole").unwrap());
+    case(12, "['sh', '-c', 'echo nonsense']");
+    let output = run("bad", &["--quiet"]);
+    let error = told(&output);
+    assert_eq!(output.status.code(), Some(65), "{error}");
+    assert!(error.contains("command = [") && error.contains("case.toml:7"), "{error}");
+    assert!(error.contains("answered `nonsense`") && error.contains("accepted is"), "{error}");
+    // Its journal is of another search than that of a case with another program
+    case(12, "['sh', 'propose.sh']");
+    let output = run("bad", &["--quiet"]);
+    assert_eq!(output.status.code(), Some(2), "{}", told(&output));
+    assert!(run("bad", &["--quiet", "--overwrite"]).status.success());
+}
+
+#[test]
+fn searches_that_cannot_be_are_refused_by_key() {
+    let wrong = |settings: &[&str]| -> Vec<String> {
+        let found = check(&read("eel-calibration", settings));
+        let errors = found.into_iter().filter(|one| one.severity == Severity::Error);
+        errors.map(|one| format!("{} {}", one.key, one.message)).collect()
+    };
+    for (setting, words) in [
+        ("{ proposer = 'external' }", "search.proposer the proposer \"external\" is a program"),
+        ("{ proposer = 'external', command = [''] }", "search.command the name"),
+        ("{ proposer = 'cma-es', command = ['sh'] }", "search.command the proposer"),
+        ("{ proposer = 'nelder-mead', seed = 3 }", "search.seed the proposer"),
+        ("{ proposer = 'random', evaluations = 0 }", "search.evaluations 0 motions"),
+        ("{ proposer = 'random', halvings = 21 }", "search.halvings 21 halvings"),
+    ] {
+        let found = wrong(&[&format!("calibration.search={setting}")]);
+        let key = words.split_whitespace().next().unwrap();
+        let is_of_it = found.iter().all(|one| one.contains(key));
+        assert!(is_of_it && found.iter().any(|one| one.contains(words)), "{setting}: {found:?}");
+    }
+    let search = "calibration.search={ proposer = 'random' }";
+    assert!(wrong(&[search]).is_empty());
+    let found = wrong(&[search, "calibration.bounds={ added_mass = [0.1, 3.0] }"]);
+    assert!(found.len() == 2 && found[0].contains("\"normal_quadratic\" has none"), "{found:?}");
+    let typing = ["calibration.search={ proposer = 'bayes' }".to_owned()];
+    let error = Case::read("eel-calibration", &typing).unwrap_err().to_string();
+    assert!(error.contains("nelder-mead"), "{error}");
+}

@@ -2,10 +2,11 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
 
 mod calibration;
+mod elongated;
 mod fish;
 mod guided;
 mod mutations;
-mod tables;
+pub mod tables;
 mod vehicle;
 
 use std::process::Command;

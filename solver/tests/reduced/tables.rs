@@ -9,7 +9,7 @@ use super::{last, read, run};
 const NODES: &str = include_str!("../../reduced/tests/tree/purcell.csv");
 
 /// All rows, by the mirror and by turning the swimmer end to end.
-fn purcell() -> String {
+pub fn purcell() -> String {
     let mut first = [[[0.0; 3]; 6]; 6];
     for line in NODES.lines().skip(1) {
         let row: Vec<f64> = line.split(',').map(|text| text.parse().unwrap()).collect();

@@ -64,6 +64,17 @@ impl<T: Number> Thrusters<T> {
         Self { thrusters, lag, memories, step: 0.0, forward: identity, inverse: identity }
     }
 
+    /// What the lag of one of them remembers.
+    #[must_use]
+    pub fn memory(&self, nth: usize) -> Vector3<T> {
+        self.memories[nth]
+    }
+
+    /// Has one of them remember something else.
+    pub fn remember(&mut self, nth: usize, memory: Vector3<T>) {
+        self.memories[nth] = memory;
+    }
+
     /// The wrench on the link, about its origin in its axes, after a step (s) with commands, one a propeller,
     /// that are constant over it; by the trapezoidal rule.
     #[must_use]

@@ -3,6 +3,7 @@
 mod chains;
 mod derivatives;
 mod ellipsoid;
+mod elongated;
 mod energy;
 mod fits;
 mod joints;

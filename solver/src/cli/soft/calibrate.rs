@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use alewife_reduced::tier::Which;
 
-use super::{SearchOptions, hold, not_written, seek};
+use super::{SearchOptions, hold, not_written, search_failure, seek};
 use crate::case::soft::SoftFile;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::{print_warnings, read_and_check};
-use crate::cli::style::say;
+use crate::cli::style::{complain, say};
 use crate::observer::write_atomic;
-use crate::reduced::{CalibrateError, ReducedError, calibrate as find};
+use crate::reduced::{CalibrateError, JOURNAL, ReducedError, calibrate_in as find};
 
 /// The file that a calibration of a reduced model writes.
 const FILE: &str = "calibrated.toml";
@@ -32,11 +32,20 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
     let _held = hold(&out)?;
     // Another process may have come to its end since
     check_is_open(&out, options)?;
-    let found = find(&file).map_err(|error| {
+    if options.overwrites() {
+        remove_journal(&out)?;
+    }
+    let mut told = |line: &str| {
+        if !options.quiet {
+            complain(line);
+        }
+    };
+    let found = find(&file, Some(&out), &mut told).map_err(|error| {
         if let Some(diagnostic) = error.diagnostic(&file) {
             return Failure::wrong(&[diagnostic]);
         }
         let exit = match &error {
+            CalibrateError::Search(error) => return search_failure(error),
             CalibrateError::Tree(_) | CalibrateError::Model(ReducedError::Tree(_)) => {
                 Exit::Diverged
             }
@@ -50,6 +59,14 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
         .map_err(|error| not_written(&out, &error))?;
     say(&format!("written to {}", out.display()));
     Ok(Exit::Done)
+}
+
+/// Takes away the journal of a search that is replaced.
+fn remove_journal(out: &Path) -> Result<(), Failure> {
+    match std::fs::remove_file(out.join(JOURNAL)) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(not_written(out, &error)),
+        _ => Ok(()),
+    }
 }
 
 /// Refuses to write over a calibration, unless it is to be replaced.

@@ -1,23 +1,17 @@
 //! Loads and tracks of runs at once: the one says what forces are, the other what they lead to.
 
-use alewife_reduced::tree::{Dual64, Fit, Residuals, TreeError, fit};
+use alewife_reduced::tree::{Dual64, Residuals, TreeError};
 
-use super::error::CalibrateError;
 use super::loads::Loads;
 use super::record::Record;
 use super::sought::Sought;
 use super::tracks::motion;
 
-/// Fits both, each by its mean square over its size, by the method of Gauss and Newton.
-pub fn fitted(records: &[&Record], sought: &Sought, most: usize) -> Result<Fit, CalibrateError> {
-    let both = Both { loads: Loads::new(records, sought)?, records, sought };
-    Ok(fit(&both, &sought.start, &sought.bounds, most)?)
-}
-
-struct Both<'a> {
-    loads: Loads<'a>,
-    records: &'a [&'a Record],
-    sought: &'a Sought,
+/// Both of some runs, each by its mean square over its size.
+pub struct Both<'a> {
+    pub loads: Loads<'a>,
+    pub records: &'a [&'a Record],
+    pub sought: &'a Sought,
 }
 
 impl Residuals for Both<'_> {

@@ -1,5 +1,6 @@
 //! `CalibrateError`: why coefficients could not be found.
 
+use alewife_reduced::search::SearchError;
 use alewife_reduced::tree::TreeError;
 use thiserror::Error;
 
@@ -33,6 +34,12 @@ pub enum CalibrateError {
     /// Nothing has been fitted, and why.
     #[error("{0}")]
     Fit(String),
+    /// The program that proposes does not answer as it should.
+    #[error("{0}")]
+    Program(String),
+    /// A search does not begin, or cannot be taken up again.
+    #[error(transparent)]
+    Search(#[from] SearchError),
     /// A reduced model cannot be made.
     #[error(transparent)]
     Model(#[from] ReducedError),
@@ -71,6 +78,10 @@ impl CalibrateError {
             Self::Fit(what) => {
                 let help = "coefficients that move what is recorded: see the page on calibration";
                 ("calibration.fit".to_owned(), what.clone(), help.to_owned())
+            }
+            Self::Program(what) => {
+                let help = "mend the program, and call again: what was tried is in the journal";
+                ("calibration.search.command".to_owned(), what.clone(), help.to_owned())
             }
             _ => return None,
         };

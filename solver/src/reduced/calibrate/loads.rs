@@ -103,14 +103,9 @@ impl Residuals for Loads<'_> {
 }
 
 /// Fits loads by least squares, in one step where they are linear in the coefficients.
-pub fn fitted(
-    records: &[&Record],
-    sought: &Sought,
-    is_linear: bool,
-) -> Result<Fit, CalibrateError> {
-    let loads = Loads::new(records, sought)?;
+pub fn fitted(loads: &Loads<'_>, sought: &Sought, is_linear: bool) -> Result<Fit, CalibrateError> {
     if !is_linear {
-        return Ok(fit(&loads, &sought.start, &sought.bounds, MOST_STEPS)?);
+        return Ok(fit(loads, &sought.start, &sought.bounds, MOST_STEPS)?);
     }
     let n = sought.start.len();
     let constant = loads.left(&vec![0.0; n]);

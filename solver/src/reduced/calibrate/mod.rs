@@ -8,6 +8,7 @@ mod kinematics;
 mod loads;
 mod record;
 mod report;
+mod search;
 mod sought;
 mod standing;
 mod tracks;
@@ -15,13 +16,20 @@ mod tracks;
 pub use compare::{Deviation, Overlay};
 pub use error::CalibrateError;
 pub use record::check_records;
+pub use search::{JOURNAL, Tally};
+
+use std::path::Path;
 
 use alewife_interrupt::check_whole;
-use alewife_reduced::tree::{Fit, TreeError};
+use alewife_reduced::tree::{Fit, Residuals, TreeError, fit};
 
+use self::both::Both;
+use self::loads::Loads;
 use self::record::{Origin, Record, records};
+use self::search::{Desk, Searched, directory_of, searched};
 use self::sought::{Sought, with_found};
-use crate::case::{CaseFile, FitBy, LoadLaw, ReducedSpec};
+use self::tracks::Swims;
+use crate::case::{CalibrationSpec, CaseFile, FitBy, LoadLaw, ReducedSpec};
 
 /// What a calibration has found.
 #[derive(Debug, Clone)]
@@ -34,6 +42,8 @@ pub struct Calibrated {
     pub bounds: Vec<[f64; 2]>,
     /// Whether each changes anything of what is fitted.
     pub has_effect: Vec<bool>,
+    /// What became of proposals, where a search found it.
+    pub tally: Option<Tally>,
     /// What is to be said of the fit, if anything is.
     pub remark: Option<String>,
     /// Errors by quantity of all runs and records, those fitted and those held out.
@@ -52,26 +62,101 @@ const MOST_STEPS: usize = 200;
 
 /// Whether loads depend on coefficients linearly.
 fn is_linear(law: LoadLaw) -> bool {
-    matches!(law, LoadLaw::Links | LoadLaw::Resistive | LoadLaw::Fossen)
+    matches!(law, LoadLaw::Links | LoadLaw::Ebt | LoadLaw::Resistive | LoadLaw::Fossen)
 }
 
-/// Finds the coefficients that a case asks for.
+/// What is fitted, and how.
+struct Fits<'a> {
+    records: &'a [&'a Record],
+    sought: &'a Sought,
+    spec: &'a CalibrationSpec,
+    law: LoadLaw,
+}
+
+/// A fit, and what became of proposals where a search made it.
+struct Found {
+    fit: Fit,
+    tally: Option<Tally>,
+}
+
+impl Fits<'_> {
+    fn found(&self, desk: &mut Desk<'_>) -> Result<Found, CalibrateError> {
+        let Self { records, sought, .. } = *self;
+        match self.spec.fits() {
+            FitBy::Loads => {
+                let loads = Loads::new(records, sought)?;
+                if self.spec.search.is_some() {
+                    return self.by(&loads, desk);
+                }
+                let fit = loads::fitted(&loads, sought, is_linear(self.law))?;
+                Ok(Found { fit, tally: None })
+            }
+            FitBy::Tracks => self.by(&Swims { records, sought }, desk),
+            FitBy::Both => {
+                let loads = Loads::new(records, sought)?;
+                self.by(&Both { loads, records, sought }, desk)
+            }
+        }
+    }
+
+    /// By a search where one is asked for, else by the method of Gauss and Newton.
+    fn by(&self, residuals: &impl Residuals, desk: &mut Desk<'_>) -> Result<Found, CalibrateError> {
+        let Sought { start, bounds, .. } = self.sought;
+        let Some(search) = &self.spec.search else {
+            return Ok(Found { fit: fit(residuals, start, bounds, MOST_STEPS)?, tally: None });
+        };
+        let Searched { fit, tally } =
+            searched(residuals, self.sought, &self.spec.fit, search, desk)?;
+        Ok(Found { fit, tally: Some(tally) })
+    }
+}
+
+/// Finds the coefficients that a case asks for; a search among them leaves no journal.
+///
+/// # Errors
+/// Those of [`calibrate_in`].
+pub fn calibrate(file: &CaseFile) -> Result<Calibrated, CalibrateError> {
+    calibrate_in(file, None, &mut |_| ())
+}
+
+/// Which search it is: the case but for how long it goes on, and what it is fitted to.
+fn search_name(file: &CaseFile, records: &[Record]) -> String {
+    let mut case = file.case().clone();
+    if let Some(search) = case.calibration.as_mut().and_then(|own| own.search.as_mut()) {
+        search.evaluations = 0;
+    }
+    let mut text = case.to_toml().unwrap_or_default();
+    for record in records {
+        text.push_str(&record.origin().hash);
+    }
+    format!("proposals {}", file::hash(text.as_bytes()))
+}
+
+/// Finds the coefficients that a case asks for. A search has its journal in a directory, from which it is taken up again
+/// with the same bits, and `told` is called with a line after each of its motions.
 ///
 /// # Errors
 /// `CalibrateError` when the case asks for none, a run or a record cannot be read or is of another swimmer, a motion
 /// fails, or nothing is fitted.
-pub fn calibrate(file: &CaseFile) -> Result<Calibrated, CalibrateError> {
+pub fn calibrate_in(
+    file: &CaseFile,
+    directory: Option<&Path>,
+    told: &mut dyn FnMut(&str),
+) -> Result<Calibrated, CalibrateError> {
     let case = file.case();
     let Some(spec) = &case.calibration else { return Err(CalibrateError::Nothing) };
     let reduced = case.reduced_model();
     let sought = Sought::new(spec, &reduced, &file.model);
     let records = records(file, spec, &reduced)?;
     let fitted: Vec<&Record> = records.iter().filter(|one| !one.is_held_out).collect();
-    let fit = match spec.fits() {
-        FitBy::Loads => loads::fitted(&fitted, &sought, is_linear(reduced.loads))?,
-        FitBy::Tracks => tracks::fitted(&fitted, &sought, MOST_STEPS)?,
-        FitBy::Both => both::fitted(&fitted, &sought, MOST_STEPS)?,
+    let desk = &mut Desk {
+        directory: directory.map(Path::to_path_buf),
+        case_directory: directory_of(&file.file),
+        name: search_name(file, &records),
+        told,
     };
+    let fits = Fits { records: &fitted, sought: &sought, spec, law: reduced.loads };
+    let Found { fit, tally } = fits.found(desk)?;
     check_whole().map_err(TreeError::from)?;
     let remark = standing::judged(&fit, &sought.start, &sought.bounds, &spec.fit)?;
     let found = with_found(&reduced, &spec.fit, &fit.parameters);
@@ -86,6 +171,7 @@ pub fn calibrate(file: &CaseFile) -> Result<Calibrated, CalibrateError> {
         bounds: spec.fit.iter().map(|name| spec.bounds_of(name)).collect(),
         has_effect: standing::has_effect(&fit, &sought.bounds),
         remark,
+        tally,
         fit,
         deviations,
         overlays,

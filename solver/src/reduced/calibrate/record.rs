@@ -322,6 +322,7 @@ impl Reader<'_> {
                 loads: self.reduced.loads,
                 coefficients: self.reduced.coefficients.clone(),
                 body: self.reduced.body.clone(),
+                depth: self.reduced.depth,
                 added_mass: self.reduced.added_mass,
                 lift: self.reduced.lift,
                 ..own

@@ -47,6 +47,9 @@ impl Calibrated {
         }
         let [left, start] = self.misfits();
         let _ = writeln!(text, "left {}, {} at the start", significant(left), significant(start));
+        if let Some(tally) = &self.tally {
+            let _ = writeln!(text, "{}", tally.text());
+        }
         if let Some(remark) = &self.remark {
             let _ = writeln!(text, "{remark}");
         }
@@ -143,6 +146,18 @@ impl Calibrated {
         let [left, start] = self.misfits();
         facts.insert("left".to_owned(), left.into());
         facts.insert("left_at_start".to_owned(), start.into());
+        if let Some(tally) = &self.tally {
+            let count = |n: usize| Value::from(i64::try_from(n).unwrap_or(i64::MAX));
+            let [with, without] = tally.shares();
+            let mut search = Table::new();
+            search.insert("proposer".to_owned(), tally.proposer.name().into());
+            search.insert("evaluations".to_owned(), count(tally.n_evaluations));
+            search.insert("proposals".to_owned(), count(tally.n_proposals));
+            search.insert("accepted".to_owned(), with.into());
+            search.insert("accepted_as_proposed".to_owned(), without.into());
+            search.insert("ended".to_owned(), tally.ended.word().into());
+            facts.insert("search".to_owned(), search.into());
+        }
         facts.insert("coefficient".to_owned(), self.coefficients().into());
         let from: Vec<Value> = self.origins.iter().map(Origin::table).collect();
         facts.insert("from".to_owned(), from.into());

@@ -1,24 +1,18 @@
 //! Tracks of bodies by the reduced model, and the coefficients that make them those of records.
 
 use alewife_reduced::tree::compiled::Compiled;
-use alewife_reduced::tree::{Dual64, Fit, Number, Pose, Residuals, Tree, TreeError, fit, real};
+use alewife_reduced::tree::{Dual64, Number, Pose, Residuals, Tree, TreeError, real};
 
-use super::error::CalibrateError;
 use super::record::Record;
 use super::sought::Sought;
 use crate::reduced::lift;
 use crate::reduced::mover::Mover;
 use crate::reduced::part::pose;
 
-/// Fits tracks by the method of Gauss and Newton.
-pub fn fitted(records: &[&Record], sought: &Sought, most: usize) -> Result<Fit, CalibrateError> {
-    let swims = Swims { records, sought };
-    Ok(fit(&swims, &sought.start, &sought.bounds, most)?)
-}
-
-struct Swims<'a> {
-    records: &'a [&'a Record],
-    sought: &'a Sought,
+/// Tracks of some records.
+pub struct Swims<'a> {
+    pub records: &'a [&'a Record],
+    pub sought: &'a Sought,
 }
 
 impl Swims<'_> {

@@ -30,6 +30,13 @@ impl Pull {
     }
 }
 
+/// What a propeller remembers between steps: its lag, and its force at the end of the last one.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::reduced) struct PropellerMemory {
+    lag: Vector3<f64>,
+    before: Wrench<f64>,
+}
+
 /// A propeller, and what it gives over a step.
 #[derive(Debug, Clone)]
 pub(in crate::reduced) struct Propeller {
@@ -63,9 +70,30 @@ impl Propeller {
         }
     }
 
+    /// What it waits for, or does by itself.
+    pub fn drive(&self) -> &Stroke {
+        &self.drive
+    }
+
+    /// What it remembers between steps.
+    pub fn memory(&self) -> PropellerMemory {
+        PropellerMemory { lag: self.thruster.memory(0), before: self.before }
+    }
+
+    /// Has it remember something else.
+    pub fn remember(&mut self, memory: &PropellerMemory) {
+        self.thruster.remember(0, memory.lag);
+        self.before = memory.before;
+    }
+
     /// Goes on by a step (s): its command is that of the middle, its force the mean of both ends.
     pub fn advance(&mut self, time: f64, step: f64) {
         let [command, _] = self.drive.at(time + 0.5 * step);
+        self.advance_by(command, step);
+    }
+
+    /// The same with a command that somebody else knows.
+    pub fn advance_by(&mut self, command: f64, step: f64) {
         let after = self.thruster.advance(step, &[command]);
         self.wrench = if self.has_lag {
             Wrench::zero().plus(&self.before, 0.5).plus(&after, 0.5)

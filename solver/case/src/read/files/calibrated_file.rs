@@ -76,12 +76,10 @@ impl Calibrated {
     }
 }
 
-/// Paths in `reduced` of the tables of coefficients that a case writes, with the body of each.
-fn written(root: &TomlNode) -> Vec<(String, Option<String>)> {
+/// Whose coefficients a case writes: those of all bodies, and of single ones.
+fn written(root: &TomlNode) -> Vec<Option<String>> {
     let bodies = root.get("reduced.body").and_then(TomlNode::table).into_iter().flatten();
-    let of_body = |name: &String| (format!("body.{name}"), Some(name.clone()));
-    let all = std::iter::once(("coefficients".to_owned(), None));
-    all.chain(bodies.map(|(name, _)| of_body(name))).collect()
+    std::iter::once(None).chain(bodies.map(|(name, _)| Some(name.clone()))).collect()
 }
 
 fn number(node: &TomlNode) -> Option<f64> {
@@ -111,7 +109,8 @@ pub fn laid_over(before: Option<&TomlNode>, root: &mut TomlNode) -> Result<(), T
     }
     // What is wrong with the file is told when the case is whole
     let Ok(Some(file)) = Calibrated::read(root) else { return Ok(()) };
-    for (path, body) in written(root) {
+    for body in written(root) {
+        let path = body.as_ref().map_or("coefficients".to_owned(), |name| format!("body.{name}"));
         let Some(table) = root.find_mut(&format!("reduced.{path}")).and_then(TomlNode::table_mut)
         else {
             continue;

@@ -3,7 +3,9 @@
 use super::is_a_body;
 use crate::rules::Findings;
 use crate::text::nearest::nearest;
-use crate::{CalibratedSpec, CalibrationSpec, FitBy, FitName, Geometry, RecordSpec, TimeSettings};
+use crate::{
+    CalibratedSpec, CalibrationSpec, FitBy, FitName, Geometry, Proposer, RecordSpec, TimeSettings,
+};
 
 /// What a record may have of a body.
 const TRACKS: [&str; 4] = ["x", "y", "z", "angle"];
@@ -16,6 +18,7 @@ pub fn check(findings: &mut Findings<'_>) {
         }
         records(findings, spec);
         differences(findings, spec);
+        search(findings, spec);
     }
     let reduced = findings.case().reduced.as_ref();
     if let Some(calibrated) = reduced.and_then(|reduced| reduced.calibrated.as_ref()) {
@@ -90,6 +93,56 @@ fn differences(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
     } else if !(part > 0.0 && part < 1.0) {
         let message = format!("differences over a part of {part} of a coefficient");
         findings.error(key, message, "a number between 0 and 1, such as 0.02");
+    }
+}
+
+/// Most motions of a search.
+const MOST_EVALUATIONS: usize = 10_000_000;
+
+/// Most halvings of the way to a proposal: a millionth of it is left.
+const MOST_HALVINGS: u8 = 20;
+
+/// A search has bounds of all that it finds, and what its proposer takes.
+fn search(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
+    let Some(search) = &spec.search else { return };
+    let key = |name: &str| format!("calibration.search.{name}");
+    let proposer = search.proposer.name();
+    if !(1..=MOST_EVALUATIONS).contains(&search.evaluations) {
+        let message = format!("{} motions are asked for", search.evaluations);
+        let help = format!("a number from 1 to {MOST_EVALUATIONS}");
+        findings.error(&key("evaluations"), message, &help);
+    }
+    if search.halvings.is_some_and(|halvings| halvings > MOST_HALVINGS) {
+        let message = format!("{} halvings are asked for", search.halvings.unwrap_or_default());
+        let help = format!("a number from 0 to {MOST_HALVINGS}");
+        findings.error(&key("halvings"), message, &help);
+    }
+    for name in spec.fit.iter().filter(|name| !spec.bounds.contains_key(*name)) {
+        let message = format!("a search proposes points between bounds, and \"{name}\" has none");
+        let help = format!("write calibration.bounds.{name} = [smallest, largest]");
+        findings.error(&key("proposer"), message, &help);
+    }
+    let is_drawn = matches!(search.proposer, Proposer::Random | Proposer::CmaEs);
+    if search.seed.is_some() && !is_drawn {
+        let message = format!("the proposer \"{proposer}\" draws no numbers");
+        findings.error(&key("seed"), message, "leave it out, or take \"random\" or \"cma-es\"");
+    }
+    match (search.proposer, search.command.first()) {
+        (Proposer::External, None) => findings.error(
+            &key("proposer"),
+            "the proposer \"external\" is a program, and none is named".to_owned(),
+            "write command = [\"PROGRAM\", \"ARGUMENT\", ...]",
+        ),
+        (Proposer::External, Some(program)) if program.trim().is_empty() => {
+            let message = "the name of the program is empty".to_owned();
+            findings.error(&key("command"), message, "write command = [\"PROGRAM\", ...]");
+        }
+        (Proposer::External, Some(_)) | (_, None) => {}
+        (_, Some(_)) => {
+            let message = format!("the proposer \"{proposer}\" is no program");
+            let help = "leave it out, or write proposer = \"external\"";
+            findings.error(&key("command"), message, help);
+        }
     }
 }
 

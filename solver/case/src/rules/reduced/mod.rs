@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use super::Findings;
 use crate::text::nearest::nearest;
 use crate::{
-    BoundaryCondition, CaseFile, Diagnostic, FlowModel, Geometry, LoadLaw, ReducedSpec,
+    Body, BoundaryCondition, CaseFile, Diagnostic, FlowModel, Geometry, LoadLaw, ReducedSpec,
     TimeSettings,
 };
 
@@ -36,6 +36,7 @@ fn check_model(findings: &mut Findings<'_>) {
     let spec = findings.case().reduced_model();
     coefficients(findings, &spec);
     law(findings, &spec);
+    elongated(findings, &spec);
     whole_case(findings);
     sides(findings);
     bodies::check(findings, &spec);
@@ -98,15 +99,52 @@ fn law(findings: &mut Findings<'_>, spec: &ReducedSpec) {
     let name = spec.loads.name();
     let is_slow = spec.loads.is_without_inertia();
     let wanted = match spec.loads {
-        LoadLaw::Links if geometry != Geometry::Planar => "a planar case",
+        LoadLaw::Links | LoadLaw::Ebt if geometry != Geometry::Planar => "a planar case",
         LoadLaw::Ellipsoid if geometry != Geometry::Spatial => "a case in three dimensions",
         _ if is_stokes && !is_slow => "a fluid with inertia",
         _ if is_slow && !is_stokes => "a fluid without inertia, model = \"stokes\"",
         _ => return,
     };
-    let help = "\"links\" in the plane and \"ellipsoid\" in space, \"fossen\" in both; \
+    let help = "\"links\" and \"ebt\" in the plane and \"ellipsoid\" in space, \"fossen\" in both; \
                 \"resistive\" and \"connection\" without inertia";
     findings.error("reduced.loads", format!("the law \"{name}\" is for {wanted}"), help);
+}
+
+/// Elongated-body theory is of a chain with a tail and a height.
+fn elongated(findings: &mut Findings<'_>, spec: &ReducedSpec) {
+    let name = spec.loads.name();
+    if spec.loads != LoadLaw::Ebt {
+        if spec.depth.is_some() {
+            let message = format!("the law \"{name}\" has no height across the plane");
+            findings.error("reduced.depth", message, "leave it out, or write loads = \"ebt\"");
+        }
+        return;
+    }
+    match spec.depth {
+        None => {
+            let message = "elongated-body theory needs the height of the body".to_owned();
+            findings.error("reduced.loads", message, "write reduced.depth, across the plane (m)");
+        }
+        Some(depth) if !(depth.is_finite() && depth > 0.0) => {
+            findings.error("reduced.depth", format!("the height is {depth}"), "a number above 0");
+        }
+        Some(_) => {}
+    }
+    let model = findings.model();
+    let joined = || model.joints.iter().filter(|joint| !model.hangs_on_laboratory(joint));
+    let neighbours = |body: &Body| {
+        joined().filter(|joint| joint.parent == body.name || joint.child == body.name).count()
+    };
+    let is_chain = model.bodies.len() > 1
+        && joined().count() + 1 == model.bodies.len()
+        && model.bodies.iter().all(|body| neighbours(body) < 3)
+        && model.bodies.last().is_some_and(|body| neighbours(body) == 1);
+    if !is_chain {
+        let message = "elongated-body theory is of a chain of links from head to tail".to_owned();
+        let help =
+            "join the bodies in a row, the tail the last of them, or write loads = \"links\"";
+        findings.error("reduced.loads", message, help);
+    }
 }
 
 /// What the whole case has that no law of loads knows.

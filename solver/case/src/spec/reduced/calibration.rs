@@ -34,6 +34,64 @@ pub struct CalibrationSpec {
     /// Runs and records.
     #[cfg_attr(test, schemars(length(min = 1)))]
     pub from: Vec<RecordSpec>,
+    /// A search by proposals, in place of steps by derivatives.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub search: Option<ProposalSpec>,
+}
+
+/// `calibration.search`: points are proposed, and on the way to each a better one is looked for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ProposalSpec {
+    /// What proposes.
+    pub proposer: Proposer,
+    /// Motions at most, those on the way to proposals included.
+    #[serde(default = "evaluations")]
+    #[cfg_attr(test, schemars(range(min = 1)))]
+    pub evaluations: usize,
+    /// How often the way to a proposal is halved before it is given up; 4 if absent, and 0 for proposals alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(range(max = 20)))]
+    pub halvings: Option<u8>,
+    /// Seed of `random` and `cma-es`; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+    /// The program of `external` and its arguments, run in the directory of the case.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub command: Vec<String>,
+}
+
+fn evaluations() -> usize {
+    500
+}
+
+/// `proposer`: one of these.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Proposer {
+    /// Any direction from the best point, as far as half of what lies between the bounds.
+    Random,
+    /// The simplex of Nelder and Mead, within the bounds.
+    NelderMead,
+    /// Covariance matrix adaptation (Hansen and Ostermeier), within the bounds.
+    CmaEs,
+    /// A program, which reads JSON and writes JSON, once for each point.
+    External,
+}
+
+impl Proposer {
+    /// Its name in a case.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::NelderMead => "nelder-mead",
+            Self::CmaEs => "cma-es",
+            Self::External => "external",
+        }
+    }
 }
 
 /// `by`: one of these.

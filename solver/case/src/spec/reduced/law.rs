@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 pub enum LoadLaw {
     /// Planar, with inertia: potential added mass, drag by strips across, friction along.
     Links,
+    /// Planar, with inertia: elongated-body theory, a chain whose tail leaves momentum behind, drag by strips.
+    Ebt,
     /// Without inertia: forces a length along and across a slender body.
     Resistive,
     /// In three dimensions, with inertia: an ellipsoid with five coefficients.
@@ -38,6 +40,15 @@ const LINKS: [Coefficient; 5] = [
     coefficient("added_mass", 0.55),
     coefficient("normal_linear", 21.0),
     coefficient("normal_quadratic", 4.9),
+    coefficient("tangential_linear", 17.0),
+    coefficient("tangential_quadratic", 0.53),
+];
+
+/// That of a cylinder about the tail, and the friction of `links`; none across, which is what the theory leaves out.
+const EBT: [Coefficient; 5] = [
+    coefficient("added_mass", 1.0),
+    coefficient("normal_linear", 0.0),
+    coefficient("normal_quadratic", 0.0),
     coefficient("tangential_linear", 17.0),
     coefficient("tangential_quadratic", 0.53),
 ];
@@ -82,6 +93,7 @@ impl LoadLaw {
     pub fn name(self) -> &'static str {
         match self {
             Self::Links => "links",
+            Self::Ebt => "ebt",
             Self::Resistive => "resistive",
             Self::Ellipsoid => "ellipsoid",
             Self::Fossen => "fossen",
@@ -94,6 +106,7 @@ impl LoadLaw {
     pub fn coefficients(self) -> &'static [Coefficient] {
         match self {
             Self::Links => &LINKS,
+            Self::Ebt => &EBT,
             Self::Resistive => &RESISTIVE,
             Self::Ellipsoid => &ELLIPSOID,
             Self::Fossen => &FOSSEN,

@@ -13,6 +13,8 @@ use serde::{Deserialize, Serialize};
 use self::law::{Coefficient, LoadLaw};
 use self::mechanics::{EllipsoidSpec, KeelSpec, ServoSpec, TendonSpec};
 use self::parts::{BuoyancySpec, CalibratedSpec, ConnectionSpec, ThrusterSpec};
+#[cfg(test)]
+use crate::spec::number::Positive;
 
 /// `[reduced]`: the reduced model of a swimmer, for runs with `--fidelity reduced`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,6 +29,10 @@ pub struct ReducedSpec {
     /// Coefficients of single bodies by their names: `reduced.body.eel-1.normal_linear`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub body: BTreeMap<String, BTreeMap<String, f64>>,
+    /// Height of the body across the plane (m), of `loads = "ebt"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+    pub depth: Option<f64>,
     /// What the fluid about an ellipsoid does by its inertia: `full` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub added_mass: Option<AddedMassSpec>,
@@ -91,6 +97,7 @@ impl ReducedSpec {
             loads,
             coefficients: BTreeMap::new(),
             body: BTreeMap::new(),
+            depth: None,
             added_mass: None,
             lift: None,
             buoyancy: BTreeMap::new(),

@@ -7,7 +7,7 @@ mod strips;
 mod vehicle;
 
 pub use ellipsoid::{AddedMass, Ellipsoid, EllipsoidCoefficients, Lift};
-pub use elongated::ElongatedBody;
+pub use elongated::{ElongatedBody, ElongatedLink, elongated_mass};
 pub use resistive::Resistive;
 pub use strips::{StripCoefficients, Strips};
 pub use vehicle::Vehicle;
@@ -31,6 +31,8 @@ pub enum Load<T: Number> {
     Ellipsoid(Box<Ellipsoid<T>>),
     /// A slender link in the plane, drag by strips along it.
     Strips(Strips<T>),
+    /// A slender link in the plane, by elongated-body theory.
+    Elongated(ElongatedLink<T>),
     /// A slender link without inertia of the fluid.
     Resistive(Resistive<T>),
     /// A vehicle with linear and quadratic damping.
@@ -44,6 +46,7 @@ impl<T: Number> Load<T> {
         match self {
             Self::Ellipsoid(law) => law.resist(twist),
             Self::Strips(law) => law.resist(twist),
+            Self::Elongated(law) => law.resist(twist),
             Self::Resistive(law) => law.resist(twist),
             Self::Vehicle(law) => law.resist(twist),
         }
@@ -55,6 +58,7 @@ impl<T: Number> Load<T> {
         match self {
             Self::Ellipsoid(law) => law.added_mass(),
             Self::Strips(law) => law.added_mass(),
+            Self::Elongated(law) => law.added_mass(),
             Self::Resistive(_) => Symmetric::zero(),
             Self::Vehicle(law) => law.added_mass(),
         }
