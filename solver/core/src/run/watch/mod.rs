@@ -8,6 +8,7 @@ mod given_loads;
 mod leaving;
 mod pace;
 mod resolution;
+mod self_contact;
 mod sound_state;
 mod soundness;
 
