@@ -43,6 +43,9 @@ fn solve_with_coordinates<E: From<ContactError>>(
     bodies: &[usize],
     flow: &mut dyn LoadedFlow<Error = E>,
 ) -> Result<ContactLoads, E> {
+    if contact.is_free_in(elastic, flow) {
+        return Ok(ContactLoads::none(contact.gaps.n_bodies()));
+    }
     let mobility = flow.mobility(&contact.loaded(bodies), true)?;
     let found = contact.solve_with_coordinates(elastic, bodies, flow, &mobility)?;
     let ranges = elastic.bodies.ranges();

@@ -71,20 +71,45 @@ impl CoupledContact<'_> {
         flow: &dyn LoadedFlow<Error = E>,
     ) -> Vec<usize> {
         let none = ContactLoads::none(self.gaps.n_bodies());
-        let mut bounds = self.gaps.displacement_bounds(&self.start, &flow.reached());
-        let Some(elastic) = &self.elastic else { return self.candidates_within(&bounds, &none) };
-        let reached = flow.reached_coordinates();
-        let own = elastic.bodies.displacement_bounds(&elastic.start, &reached);
-        for ((bound, own), range) in bounds.iter_mut().zip(own).zip(elastic.bodies.ranges()) {
-            *bound = if range.is_empty() { *bound } else { own };
-        }
-        let mut bodies = self.candidates_within(&bounds, &none);
+        let Some(elastic) = &self.elastic else {
+            let bounds = self.gaps.displacement_bounds(&self.start, &flow.reached());
+            return self.candidates_within(&bounds, &none);
+        };
+        let mut bodies = self.candidates_within(&self.ways_in(elastic, flow), &none);
         if !bodies.is_empty() {
             bodies.extend(elastic.all());
             bodies.sort_unstable();
             bodies.dedup();
         }
         bodies
+    }
+
+    /// How far bodies get at most in a flow (m).
+    fn ways_in<E: From<ContactError>>(
+        &self,
+        elastic: &ElasticContact<'_>,
+        flow: &dyn LoadedFlow<Error = E>,
+    ) -> Vec<f64> {
+        let mut ways = self.gaps.displacement_bounds(&self.start, &flow.reached());
+        let reached = flow.reached_coordinates();
+        let own = elastic.bodies.displacement_bounds(&elastic.start, &reached);
+        for ((way, own), range) in ways.iter_mut().zip(own).zip(elastic.bodies.ranges()) {
+            *way = if range.is_empty() { *way } else { own };
+        }
+        ways
+    }
+
+    /// Whether all bodies get to where nothing is in the range of anything, in a flow without contact, and cannot have gone
+    /// through each other.
+    pub(super) fn is_free_in<E: From<ContactError>>(
+        &self,
+        elastic: &ElasticContact<'_>,
+        flow: &dyn LoadedFlow<Error = E>,
+    ) -> bool {
+        let (mut poses, mut coordinates) = (flow.reached(), flow.reached_coordinates());
+        let Some(gaps) = elastic.bodies.place(&mut poses, &mut coordinates) else { return false };
+        gaps.pairs(&poses, self.law.range()).is_empty()
+            && self.gaps.max_part_of(&self.start, &self.ways_in(elastic, flow)) >= 1.0
     }
 
     /// Those that may, where bodies move no farther than these lengths (m).

@@ -86,9 +86,13 @@ impl<const D: usize, S: ContactSurface<D>> SurfaceGaps<D, S> {
         self.bodies[body] = BodySolid::new(name, surface, Point::zeros());
     }
 
-    /// Has the points of a body with coordinates move with its sections.
-    pub fn move_by_sections(&mut self, body: usize, sections: Arc<dyn Sections>) {
-        self.bodies[body].sections = Some(sections);
+    /// Gives a body with coordinates another surface, as [`Self::deform`] does, whose points move with sections: its thickness
+    /// stays what it was.
+    pub fn bend(&mut self, body: usize, surface: S, sections: Arc<dyn Sections>) {
+        let bent = &mut self.bodies[body];
+        bent.reach = surface.reach();
+        (bent.surface, bent.centroid) = (surface, Point::zeros());
+        bent.sections = Some(sections);
     }
 
     /// What moves with a point of a body in a pose, from its centre of mass (m).

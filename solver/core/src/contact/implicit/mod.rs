@@ -3,6 +3,7 @@
 mod correction;
 mod direction;
 mod dissipative;
+mod inner_forces;
 mod step;
 mod unknowns;
 

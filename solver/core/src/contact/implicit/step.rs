@@ -24,6 +24,8 @@ use crate::contact::{
 
 /// Most iterations of Newton's method.
 const MAX_ITERATIONS: usize = 200;
+/// The same of bodies with coordinates, whose shapes take time: a shorter step is soon found.
+const MAX_ELASTIC_ITERATIONS: usize = 40;
 /// Most halvings of a step.
 const MAX_HALVINGS: usize = 60;
 /// Change of poses over the size of the numbers they are made of that is rounding.
@@ -105,7 +107,8 @@ impl ContactStep<'_> {
         self.check_numbers()?;
         let mut now = self.first_trial()?;
         let (mut change, mut iterations) = (f64::INFINITY, 0);
-        while iterations < MAX_ITERATIONS {
+        let most = if self.elastic.is_some() { MAX_ELASTIC_ITERATIONS } else { MAX_ITERATIONS };
+        while iterations < most {
             iterations += 1;
             let exact = self.newton_direction(&now);
             let last = std::mem::replace(&mut change, self.size(&exact));
@@ -260,6 +263,7 @@ impl ContactStep<'_> {
         let displacement = self.size(step);
         for _ in 0..MAX_HALVINGS {
             let velocity = self.second_order_correction(now, step, fraction);
+            let velocity = self.with_inner_forces(now, velocity);
             let pairs = |at: &Placed| at.gaps(self).pairs(&at.poses, self.law.range());
             let placed = self.place(&velocity).map(|at| (pairs(&at), at));
             if let Some((pairs, at)) = placed

@@ -162,11 +162,13 @@ impl Scene<2> for PlanarScene {
                 continue;
             };
             let gaps = gaps.get_or_insert_with(|| self.gaps.clone());
-            gaps.deform_outline(body, outline.clone());
+            let outline = outline.clone();
             if deformed.follows_coordinates() {
                 let sections =
                     CarriedSections { outline: outline.clone(), deformed: deformed.clone() };
-                gaps.move_by_sections(body, Arc::new(sections));
+                gaps.bend_outline(body, outline, Arc::new(sections));
+            } else {
+                gaps.deform_outline(body, outline);
             }
         }
         gaps.map(|gaps| -> Box<dyn Gaps> { Box::new(gaps) })
