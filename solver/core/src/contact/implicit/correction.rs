@@ -47,7 +47,7 @@ impl ContactStep<'_> {
         }
         for _ in 0..MAX_CORRECTIONS {
             let Some(at) = self.place(&velocity) else { break };
-            let (gaps, poses) = (at.gaps(self), &at.poses);
+            let (gaps, poses) = (at.gaps(self.gaps), &at.poses);
             let bounds = self
                 .bodies
                 .iter()

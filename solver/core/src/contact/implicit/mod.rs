@@ -4,6 +4,7 @@ mod correction;
 mod direction;
 mod dissipative;
 mod inner_forces;
+mod placed;
 mod step;
 mod unknowns;
 

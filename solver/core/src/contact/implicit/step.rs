@@ -15,7 +15,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::unknowns::Placed;
+use super::placed::Placed;
 use crate::body::{Mode, Modes, Pose, Twist};
 use crate::contact::{
     ContactError, ContactForce, ContactLoads, ContactPair, ElasticStep, Gaps, Law, LawKind,
@@ -132,7 +132,7 @@ impl ContactStep<'_> {
             now = next;
             self.check_strength(&now)?;
         }
-        let (first, second, gap) = match now.at.gaps(self).minimum_gap(&now.at.poses) {
+        let (first, second, gap) = match now.at.gaps(self.gaps).minimum_gap(&now.at.poses) {
             Some(MinimumGap { body, partner, gap }) => {
                 let [first, second] = self.names(body, partner);
                 (first, second, gap)
@@ -194,7 +194,7 @@ impl ContactStep<'_> {
         let velocity = self.by_row(of_body, of_coordinate);
         let refuse = || ContactError::Input { what: "a body has no shape at the start".to_owned() };
         let at = self.place(&velocity).ok_or_else(refuse)?;
-        let pairs = at.gaps(self).pairs(&at.poses, self.law.range());
+        let pairs = at.gaps(self.gaps).pairs(&at.poses, self.law.range());
         if let Some(touching) = narrowest(&pairs).filter(|pair| pair.gap <= 0.0) {
             let [first, second] = self.names(touching.body, touching.partner);
             return Err(ContactError::Overlap { first, second, gap: touching.gap });
@@ -264,7 +264,7 @@ impl ContactStep<'_> {
         for _ in 0..MAX_HALVINGS {
             let velocity = self.second_order_correction(now, step, fraction);
             let velocity = self.with_inner_forces(now, velocity);
-            let pairs = |at: &Placed| at.gaps(self).pairs(&at.poses, self.law.range());
+            let pairs = |at: &Placed| at.gaps(self.gaps).pairs(&at.poses, self.law.range());
             let placed = self.place(&velocity).map(|at| (pairs(&at), at));
             if let Some((pairs, at)) = placed
                 && pairs.iter().all(|pair| pair.gap > 0.0)
@@ -311,7 +311,7 @@ impl ContactStep<'_> {
         let placed = self.place(&velocity);
         // A last step is too small to bend a body out of shape
         let at = placed.as_ref().unwrap_or(&now.at);
-        let minimum_gap = at.gaps(self).minimum_gap(&at.poses);
+        let minimum_gap = at.gaps(self.gaps).minimum_gap(&at.poses);
         let loads = ContactLoads::gather(self.gaps.n_bodies(), contacts.collect(), minimum_gap);
         let poses = at.poses.clone();
         let Some(elastic) = self.elastic else {

@@ -7,34 +7,18 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3};
 
+use super::placed::Placed;
 use super::step::ContactStep;
 use crate::body::{Mode, Pose, RigidVector, Twist};
-use crate::contact::{ContactPair, Gaps, PairMatrix, PairVector, Partner};
+use crate::contact::{ContactPair, PairMatrix, PairVector, Partner};
 
 /// Angle below which the left Jacobian is taken from its series (rad).
 const SMALL_ANGLE: f64 = 1e-2;
-
-/// Where bodies are.
-pub(super) struct Placed {
-    /// Poses of all bodies.
-    pub poses: Vec<Pose>,
-    /// Coordinates of all bodies that have some.
-    pub coordinates: Vec<f64>,
-    /// The gaps there, where these are not those of the step.
-    gaps: Option<Box<dyn Gaps>>,
-}
 
 /// A row with what it counts in the displacements of both sides of a pair.
 struct RowOfPair {
     row: usize,
     weights: PairVector,
-}
-
-impl Placed {
-    /// The gaps there.
-    pub fn gaps<'b>(&'b self, step: &'b ContactStep<'_>) -> &'b dyn Gaps {
-        self.gaps.as_deref().unwrap_or(step.gaps)
-    }
 }
 
 impl ContactStep<'_> {
@@ -83,12 +67,12 @@ impl ContactStep<'_> {
             Some(elastic) => Some(elastic.bodies.place(&mut poses, &mut coordinates)?),
             None => None,
         };
-        Some(Placed { poses, coordinates, gaps })
+        Some(Placed { poses, coordinates, own_gaps: gaps })
     }
 
     /// The part of a change of velocities, at most 1, within which no body can get to the far side of another.
     pub(super) fn max_step_fraction(&self, from: &Placed, velocity: &DVector<f64>) -> f64 {
-        let (gaps, full) = (from.gaps(self), self.poses(velocity));
+        let (gaps, full) = (from.gaps(self.gaps), self.poses(velocity));
         let Some(elastic) = self.elastic else {
             return gaps.max_step_fraction(&from.poses, &full);
         };

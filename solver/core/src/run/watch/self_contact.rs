@@ -21,6 +21,8 @@ const NEAR: f64 = 0.5;
 struct OnOutline {
     /// From the head along the straight body (m).
     along: f64,
+    /// From the axis of the straight body (m).
+    from_axis: f64,
     /// Where it is (m).
     place: Point<2>,
 }
@@ -40,7 +42,6 @@ impl<const D: usize> Run<'_, D> {
             let Some(deformed) = shapes.deformed(body) else { continue };
             let points = points(deformed);
             let thickness = thickness(&points);
-            let points: Vec<OnOutline> = points.into_iter().map(|(point, _)| point).collect();
             let limit = law.as_ref().map_or(NEAR * thickness, |law| law.range());
             let Some([one, other]) = nearest(&points, APART * thickness, limit) else { continue };
             let middle = (one.place + other.place) * 0.5;
@@ -67,8 +68,8 @@ impl<const D: usize> Run<'_, D> {
     }
 }
 
-/// Points of the outline with their distances from the axis of the straight body (m); none of one without coordinates.
-fn points(deformed: &DeformedOutline) -> Vec<(OnOutline, f64)> {
+/// Points of the outline; none of one without coordinates.
+fn points(deformed: &DeformedOutline) -> Vec<OnOutline> {
     let Some(period) = deformed.period().filter(|_| deformed.follows_coordinates()) else {
         return Vec::new();
     };
@@ -77,14 +78,14 @@ fn points(deformed: &DeformedOutline) -> Vec<(OnOutline, f64)> {
         let parameter = period * f64::from(nth) / f64::from(POINTS);
         let rest = deformed.rest_place(parameter)?;
         let (along, place) = (head - rest.x, deformed.position(parameter));
-        Some((OnOutline { along, place }, rest.y.abs()))
+        Some(OnOutline { along, from_axis: rest.y.abs(), place })
     };
     (0..POINTS).filter_map(point).collect()
 }
 
 /// Of the body where it is thickest (m).
-fn thickness(points: &[(OnOutline, f64)]) -> f64 {
-    2.0 * points.iter().map(|(_, from_axis)| *from_axis).fold(0.0, f64::max)
+fn thickness(points: &[OnOutline]) -> f64 {
+    2.0 * points.iter().map(|point| point.from_axis).fold(0.0, f64::max)
 }
 
 /// The two points nearer to each other than a limit that are nearest, and no neighbours.
@@ -111,7 +112,8 @@ mod tests {
             let point = |nth: u32| {
                 let along = f64::from(nth) / 100.0;
                 let angle = turned * along;
-                OnOutline { along, place: Point::<2>::new(angle.cos(), angle.sin()) }
+                let place = Point::<2>::new(angle.cos(), angle.sin());
+                OnOutline { along, from_axis: 0.0, place }
             };
             (0..=100).map(point).collect()
         };
