@@ -1,4 +1,4 @@
-//! The mesh follows the bodies: elliptic motion, remeshing, transfer, projection.
+//! The mesh follows the bodies: elliptic motion, remeshing, transfer, projection; rods that touch.
 
 mod growing;
 mod momentum;
@@ -6,6 +6,7 @@ mod moving;
 mod projection;
 mod reach;
 mod remesh;
+mod rod_contact;
 mod transfer;
 
 use alewife_mesh::{Domain, Mesh, PlacedShape, Point, Shape, Sizing, generate};

@@ -305,7 +305,7 @@ fn mobility(setting: &Setting, choice: SolverChoice, turns: bool) -> DMatrix<f64
     let bodies = BodiesAt { poses: &poses, shapes: &shapes };
     let constraints = system.constraints(&problem, &mesh, bodies);
     let loaded = [LoadedBody { body: 0, turns }];
-    system.mobility(&constraints, &loaded, &mut timing).expect("it is solved")
+    system.mobility(&constraints, &loaded, false, &mut timing).expect("it is solved")
 }
 
 /// Of a body that contact does not turn half the columns are left out, and the others are the same.

@@ -100,7 +100,7 @@ impl Gaps for OneBody {
         None
     }
 
-    fn max_step_fraction(&self, _: &[Pose], _: &[Pose]) -> f64 {
+    fn max_part_of(&self, _: &[Pose], _: &[f64]) -> f64 {
         1.0
     }
 }

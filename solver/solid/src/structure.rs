@@ -73,6 +73,16 @@ pub trait Flexible: Structure + std::fmt::Debug {
     /// The velocity there, as a sum of weights times velocities of the structure.
     fn weights(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vec<Weight>;
 
+    /// How the section moves as a whole that the point at a place at rest (m) is on, of bodies of which that is known.
+    fn section(&self, _coordinates: &DVector<f64>, _rest: &Vector3<f64>) -> Option<SectionMotion> {
+        None
+    }
+
+    /// Length (m) by which a coordinate counts as the displacement of a point: one of coordinates that are places.
+    fn length_of(&self, _coordinate: usize) -> f64 {
+        1.0
+    }
+
     /// The centre of the body, as a sum of weights times coordinates.
     fn center_weights(&self) -> Vec<Weight>;
 
@@ -139,6 +149,26 @@ pub struct Weight {
     pub coordinate: usize,
     /// Along x, y and z.
     pub weight: Vector3<f64>,
+}
+
+/// A section of a body, which moves as one piece; seen as places are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SectionMotion {
+    /// Where its centre is (m).
+    pub place: Vector3<f64>,
+    /// What coordinates count in its velocities.
+    pub weights: Vec<SectionWeight>,
+}
+
+/// What the velocity of a coordinate counts in those of a section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionWeight {
+    /// Which coordinate.
+    pub coordinate: usize,
+    /// In the velocity of its centre, along x, y and z.
+    pub linear: Vector3<f64>,
+    /// In its angular velocity.
+    pub angular: Vector3<f64>,
 }
 
 /// The sum of weights times values, one for each coordinate.

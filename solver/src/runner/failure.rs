@@ -119,6 +119,7 @@ pub fn exit_of(error: &RunError) -> Exit {
         },
         RunError::StepSizeUnderflow { .. }
         | RunError::Contact { .. }
+        | RunError::MeetsItself { .. }
         | RunError::BlownUp { .. } => Exit::Diverged,
         RunError::Unsupported(_)
         | RunError::Resume(_)

@@ -8,9 +8,9 @@
 //! the loads of contact give to the motion, and its scale is the kinetic one of the approach, what is stored, and the
 //! work of all other forces over the range.
 
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
-use super::{ContactLoads, ContactPair, Gaps, Law, Partner};
+use super::{ContactLoads, ContactPair, Gaps, Law, Partner, Section};
 use crate::body::{Pose, RigidVector, Twist};
 
 /// Error of a step over the energy of the contact that is as large as it should be.
@@ -24,7 +24,7 @@ const WEIGHT_OF_GAIN: f64 = 10.0;
 const NO_INERTIA: f64 = 1e-12;
 
 /// A body in a step; pairs are of its start and its end.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct BodyInStep {
     /// Mass matrix in the world, without motions that are held or given (kg, kg m2).
     pub inertia: Matrix6<f64>,
@@ -36,12 +36,34 @@ pub struct BodyInStep {
     pub displacement: RigidVector,
     /// Whether it is rigid and hangs on no other body: all forces on it do work on its own motion.
     pub is_alone: bool,
+    /// What a body with coordinates does, which has no inertia as a rigid one.
+    pub elastic: Option<ElasticMotion>,
+}
+
+/// A body with coordinates in a step.
+#[derive(Debug, Clone)]
+pub struct ElasticMotion {
+    /// Rates of its coordinates at the start and at the end.
+    pub rates: [DVector<f64>; 2],
+    /// Change of its coordinates.
+    pub displacement: DVector<f64>,
+    /// The inverse of its mass matrix, zero for coordinates that are held; none without inertia.
+    pub response: Option<DMatrix<f64>>,
+    /// Rate of its momentum at the end (N).
+    pub momentum_rate: Vector3<f64>,
+}
+
+/// A side of a pair: its body, what of it moves with its point, and the derivative of the gap by that.
+struct Side<'a> {
+    body: usize,
+    section: Option<&'a Section>,
+    gradient: RigidVector,
 }
 
 /// A step as contact sees it; pairs are of its start and its end.
 pub struct StepEnergy<'a> {
     /// Surfaces of bodies and walls.
-    pub gaps: &'a dyn Gaps,
+    pub gaps: [&'a dyn Gaps; 2],
     /// The law.
     pub law: &'a Law,
     /// Poses of all bodies as seen in the mesh.
@@ -70,12 +92,12 @@ impl StepEnergy<'_> {
     #[must_use]
     pub fn measure(&self) -> ContactEnergy {
         let range = self.law.range();
-        let pairs = self.poses.map(|poses| self.gaps.pairs(poses, range));
+        let pairs = [0, 1].map(|end| self.gaps[end].pairs(self.poses[end], range));
         let touching = if pairs[1].is_empty() { &pairs[0] } else { &pairs[1] };
         let [before, stored] = pairs.each_ref().map(|pairs| self.stored(pairs));
         let impact: f64 = touching.iter().filter_map(|pair| self.impact(pair)).sum();
         let involved = self.involved(touching);
-        if involved.iter().all(|&body| self.bodies[body].inertia == Matrix6::zeros()) {
+        if involved.iter().all(|&body| !self.bodies[body].has_inertia()) {
             return ContactEnergy { stored, ..ContactEnergy::default() };
         }
         let others: f64 = involved.iter().map(|&body| self.other_forces(body)).sum();
@@ -105,11 +127,8 @@ impl StepEnergy<'_> {
         let way = |body: usize| to[body].displacement_from(&from[body]);
         let work = |pair: &ContactPair| {
             let force = pair.weight * self.law.force(pair.gap);
-            let sides = sides(pair).into_iter().zip(pair.gradient());
-            let along = |(body, gradient): (Option<usize>, RigidVector)| {
-                body.map_or(0.0, |body| gradient.dot(&way(body)))
-            };
-            0.5 * force * sides.map(along).sum::<f64>()
+            let along = |side: Side<'_>| self.bodies[side.body].way_along(&side, way(side.body));
+            0.5 * force * sides(pair).map(along).sum::<f64>()
         };
         pairs.iter().flatten().map(work).sum()
     }
@@ -117,8 +136,19 @@ impl StepEnergy<'_> {
     /// Kinetic energy with which the bodies of a pair near or leave each other (J); none where nothing gives way.
     fn impact(&self, pair: &ContactPair) -> Option<f64> {
         let (mut rates, mut answer) = ([0.0; 2], 0.0);
-        for (body, gradient) in sides(pair).into_iter().zip(pair.gradient()) {
-            let Some(body) = body.map(|body| &self.bodies[body]) else { continue };
+        for side in sides(pair) {
+            let (body, gradient) = (&self.bodies[side.body], &side.gradient);
+            if let (Some(elastic), Some(section)) = (&body.elastic, side.section) {
+                let gradient = elastic.on_coordinates(section, gradient);
+                for (rate, rates) in rates.iter_mut().zip(&elastic.rates) {
+                    *rate += gradient.dot(rates);
+                }
+                answer += elastic
+                    .response
+                    .as_ref()
+                    .map_or(0.0, |response| gradient.dot(&(response * &gradient)));
+                continue;
+            }
             for (rate, twist) in rates.iter_mut().zip(&body.twists) {
                 *rate += gradient.dot(&twist.to_vector());
             }
@@ -132,7 +162,7 @@ impl StepEnergy<'_> {
 
     /// Bodies of pairs, ascending.
     fn involved(&self, pairs: &[ContactPair]) -> Vec<usize> {
-        let mut bodies: Vec<usize> = pairs.iter().flat_map(sides).flatten().collect();
+        let mut bodies: Vec<usize> = pairs.iter().flat_map(sides).map(|side| side.body).collect();
         bodies.sort_unstable();
         bodies.dedup();
         bodies
@@ -146,7 +176,10 @@ impl StepEnergy<'_> {
         let force = |pair: &ContactPair| pair.weight * self.law.force(pair.gap);
         let largest = at_end.max(pairs[0].iter().map(force).sum());
         let rates = involved.iter().map(|&body| {
-            let BodyInStep { inertia, accelerations, .. } = &self.bodies[body];
+            let BodyInStep { inertia, accelerations, elastic, .. } = &self.bodies[body];
+            if let Some(elastic) = elastic {
+                return elastic.momentum_rate.norm();
+            }
             (inertia * accelerations[1].to_vector()).fixed_rows::<3>(0).norm()
         });
         let rate: f64 = rates.sum();
@@ -156,7 +189,10 @@ impl StepEnergy<'_> {
 
     /// All other forces on a body at the end of the step (N).
     fn other_forces(&self, body: usize) -> f64 {
-        let BodyInStep { inertia, accelerations, is_alone, .. } = &self.bodies[body];
+        let BodyInStep { inertia, accelerations, is_alone, elastic, .. } = &self.bodies[body];
+        if let Some(elastic) = elastic.as_ref().filter(|elastic| elastic.response.is_some()) {
+            return (elastic.momentum_rate - self.loads.wrenches[body].force).norm();
+        }
         if !is_alone || *inertia == Matrix6::zeros() {
             return 0.0;
         }
@@ -167,6 +203,22 @@ impl StepEnergy<'_> {
 }
 
 impl BodyInStep {
+    fn has_inertia(&self) -> bool {
+        let elastic = self.elastic.as_ref().is_some_and(|elastic| elastic.response.is_some());
+        elastic || self.inertia != Matrix6::zeros()
+    }
+
+    /// How far what moves with the point of a side gets along the gradient of the gap (m), the body by a displacement as seen
+    /// from the mesh.
+    fn way_along(&self, side: &Side<'_>, seen: RigidVector) -> f64 {
+        let (Some(elastic), Some(section)) = (&self.elastic, side.section) else {
+            return side.gradient.dot(&seen);
+        };
+        let own = elastic.on_coordinates(section, &side.gradient).dot(&elastic.displacement);
+        let frame = (seen - self.displacement).fixed_rows::<3>(0).into_owned();
+        own + side.gradient.fixed_rows::<3>(0).dot(&frame)
+    }
+
     /// Change of the kinetic energy without the work of all forces by the trapezoidal rule (J).
     fn kinetic_defect(&self) -> f64 {
         if !self.is_alone {
@@ -179,11 +231,23 @@ impl BodyInStep {
     }
 }
 
+impl ElasticMotion {
+    /// The derivative by all coordinates of the body of what changes so by the motion of a section.
+    fn on_coordinates(&self, section: &Section, gradient: &RigidVector) -> DVector<f64> {
+        let mut all = DVector::zeros(self.displacement.len());
+        section.on_coordinates(gradient).for_each(|at| all[at.coordinate] += at.value);
+        all
+    }
+}
+
 /// The bodies on both sides of a pair.
-fn sides(pair: &ContactPair) -> [Option<usize>; 2] {
+fn sides(pair: &ContactPair) -> impl Iterator<Item = Side<'_>> {
     let partner = match pair.partner {
         Partner::Body(other) => Some(other),
         Partner::Wall(_) => None,
     };
-    [Some(pair.body), partner]
+    let bodies = [Some(pair.body), partner].into_iter();
+    bodies.zip(&pair.sections).zip(pair.gradient()).filter_map(|((body, section), gradient)| {
+        Some(Side { body: body?, section: section.as_ref(), gradient })
+    })
 }

@@ -1,5 +1,7 @@
 //! `ContactLoads`: force and torque of contact on each body, with every contact and its gap.
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +25,10 @@ pub struct ContactForce {
 pub struct ContactLoads {
     /// Force and torque about the centre of mass of each body.
     pub wrenches: Vec<Wrench>,
+    /// What contact does on the coordinates of all bodies that have some; nothing without contact. It is not saved, as a step
+    /// starts from none.
+    #[serde(skip)]
+    pub on_coordinates: Vec<f64>,
     /// All contacts within the range. They are not saved: a step starts from none.
     #[serde(skip)]
     pub contacts: Vec<ContactForce>,
@@ -89,9 +95,9 @@ impl ContactLoads {
         for contact in &contacts {
             let [mut on_body, mut on_partner] = contact.pair.loads(contact.force);
             if contact.dissipative != Vector3::zeros() {
-                let [body, partner] = contact.pair.gradient_along(&contact.dissipative);
-                on_body = on_body + Wrench::from_vector(&body);
-                on_partner = on_partner + Wrench::from_vector(&partner);
+                let [body, partner] = contact.pair.loads_along(&contact.dissipative);
+                on_body = on_body + body;
+                on_partner = on_partner + partner;
             }
             let body = contact.pair.body;
             wrenches[body] = wrenches[body] + on_body;
@@ -100,5 +106,26 @@ impl ContactLoads {
             }
         }
         Self { wrenches, contacts, minimum_gap, ..Self::default() }
+    }
+
+    /// The same with what they are on coordinates, of which each body has these.
+    pub(super) fn with_coordinates(self, ranges: &[Range<usize>]) -> Self {
+        let mut loads = vec![0.0; ranges.last().map_or(0, |range| range.end)];
+        for ContactForce { pair, force, dissipative } in &self.contacts {
+            let sides = pair.gradient_along(&(pair.normal * *force + dissipative));
+            let partner = match pair.partner {
+                Partner::Body(other) => Some(other),
+                Partner::Wall(_) => None,
+            };
+            for ((body, section), load) in
+                [Some(pair.body), partner].into_iter().zip(&pair.sections).zip(&sides)
+            {
+                let (Some(body), Some(section)) = (body, section) else { continue };
+                for at in section.on_coordinates(load) {
+                    loads[ranges[body].start + at.coordinate] += at.value;
+                }
+            }
+        }
+        Self { on_coordinates: loads, ..self }
     }
 }

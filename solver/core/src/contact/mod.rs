@@ -8,6 +8,7 @@
 
 mod coupled;
 mod dissipation;
+mod elastic;
 mod energy;
 mod error;
 mod gaps;
@@ -17,15 +18,16 @@ mod loads;
 
 pub use coupled::{
     BodyDynamics, ByMobility, ByQuasiNewton, ContactPrediction, CoupledContact, CoupledSolver,
-    LoadedFlow, SecantMobility, StageContact,
+    ElasticContact, LoadedFlow, SecantMobility, StageContact,
 };
 pub use dissipation::Dissipation;
-pub use energy::{BodyInStep, ContactEnergy, StepEnergy};
+pub use elastic::{ElasticBodies, ElasticStep, InnerForces};
+pub use energy::{BodyInStep, ContactEnergy, ElasticMotion, StepEnergy};
 pub use error::ContactError;
 pub use gaps::{
-    ContactPair, ContactSurface, Curvatures, FacingPoints, Gaps, MinimumGap, PairMatrix,
-    PairVector, Partner, PlanarGaps, PlanarSurface, SpatialGaps, SpatialSurface, SurfaceGaps,
-    frame_of,
+    COORDINATES_OF_SECTION, ContactPair, ContactSurface, Curvatures, FacingPoints, Gaps,
+    MinimumGap, PairMatrix, PairVector, Partner, PlanarGaps, PlanarSurface, Section, Sections,
+    SpatialGaps, SpatialSurface, SurfaceGaps, frame_of, largest_open_part,
 };
 pub use implicit::{ContactSolution, ContactStep};
 pub use law::{Law, LawKind};

@@ -46,5 +46,5 @@ pub use rigid_equations::{
 pub use shapes::{BodyShapes, ShapeError};
 pub use solution::Solution;
 pub use surface::{MovingSurface, RestPlaces};
-pub use system::{Configuration, FluidSystem, MeshedBodies, ResidualAt};
+pub use system::{AddedLoads, Configuration, FluidSystem, ForcesBeyond, MeshedBodies, ResidualAt};
 pub use turning_base::TurningBase;

@@ -11,7 +11,7 @@ use super::closed::on_outline;
 use super::error::GaitError;
 use super::flexible::CarriedOutline;
 use super::recoil::RecoilMotion;
-use crate::structure::{Flexible, Weight};
+use crate::structure::{Flexible, SectionMotion, Weight};
 
 /// A material point of a body that deforms.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -260,6 +260,26 @@ impl DeformedOutline {
     #[must_use]
     pub fn weights(&self, rest: &Vector3<f64>) -> Vec<Weight> {
         self.carried().map(|carried| carried.weights(rest)).unwrap_or_default()
+    }
+
+    /// Whether it follows coordinates.
+    #[must_use]
+    pub fn follows_coordinates(&self) -> bool {
+        self.carried().is_some()
+    }
+
+    /// After which the parameter of an outline that follows coordinates is where it began; `None` of another outline.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        Some(self.carried()?.period())
+    }
+
+    /// How the section moves that a point of an outline that follows coordinates is on, by the parameter of the point; its
+    /// place is in the frame of the body. `None` of another outline.
+    #[must_use]
+    pub fn section(&self, parameter: f64) -> Option<SectionMotion> {
+        let carried = self.carried()?;
+        carried.section(&carried.rest_place(parameter))
     }
 
     fn carried(&self) -> Option<&CarriedOutline> {

@@ -3,7 +3,7 @@
 use std::ops::Deref;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, CellQuality, Mesh, NodeId, Point};
-use nalgebra::Vector3;
+use nalgebra::{DVector, Vector3};
 
 use super::boundary_condition::{MeshBoundaryCondition, MotionError, mesh_boundary_conditions};
 use super::elliptic::MeshMotion;
@@ -210,6 +210,28 @@ impl<const D: usize> MovingMesh<D> {
             (one - other).norm() / self.edges[*body]
         };
         self.scene.rest_places(shapes[0]).iter().map(of_node).fold(0.0, f64::max)
+    }
+
+    /// How far nodes on bodies with coordinates get at most between two sets of these of all bodies (m), by body; `shapes` are
+    /// any of them.
+    #[must_use]
+    pub fn ways_of_surfaces(
+        &self,
+        bodies: &[RigidBody],
+        shapes: &BodyShapes,
+        coordinates: [&[f64]; 2],
+    ) -> Vec<f64> {
+        let ranges = coordinate_ranges(bodies);
+        let mut ways = vec![0.0f64; bodies.len()];
+        for RestPlace { body, place, .. } in self.scene.rest_places(shapes) {
+            let Some(flexible) = bodies[body].flexible() else { continue };
+            let [from, to] = coordinates.map(|all| {
+                let own = DVector::from_column_slice(&all[ranges[body].clone()]);
+                flexible.place(&own, &place)
+            });
+            ways[body] = ways[body].max((to - from).norm());
+        }
+        ways
     }
 
     /// The largest speed (m/s) of a node on a body by rates of the coordinates of all bodies, which have these.

@@ -169,6 +169,16 @@ pub enum RunError {
         /// Which bodies, and why.
         reason: Box<ContactError>,
     },
+    /// A body with coordinates meets itself.
+    #[error("{}: {meeting}", at_step(*step, *time))]
+    MeetsItself {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Which, and where.
+        meeting: Box<Meeting>,
+    },
     /// The mesh could not be generated.
     #[error("mesh: {0}")]
     Mesh(#[from] MeshError),
@@ -195,6 +205,24 @@ pub enum RunError {
     /// An observer could not write.
     #[error("output: {0}")]
     Output(#[from] std::io::Error),
+}
+
+/// A body with coordinates that comes near itself.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "`{body}` is {gap:.2e} from itself at ({:.4}, {:.4}), where it is {:.3} and {:.3} from its head: contact of a rod with \
+     itself is not computed; make the rod stiffer or shorter, load it less, or end the run before, by time.unsteady.end",
+    place[0], place[1], along[0], along[1]
+)]
+pub struct Meeting {
+    /// Name of the body.
+    pub body: String,
+    /// Distances of both points from its head (m).
+    pub along: [f64; 2],
+    /// Where it is (m).
+    pub place: [f64; 2],
+    /// How near (m).
+    pub gap: f64,
 }
 
 impl RunError {

@@ -128,7 +128,6 @@ fn check_coordinates<const D: usize>(case: &Case, problem: &Problem<D>) -> Resul
     let refused = [
         (D == 3, "in space yet", "take geometry = \"planar\""),
         (is_explicit, "by explicit steps", "write time.unsteady.scheme = \"bdf2\""),
-        (case.contact.is_some(), "beside contact yet", "leave out [contact]"),
         (problem.has_joints(), "beside joints yet", "leave out [[joint]]"),
         (
             problem.free_translations().contains(&true),

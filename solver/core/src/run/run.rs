@@ -81,6 +81,8 @@ pub(super) struct Warned {
     pub of_gap: bool,
     /// Bodies that stay near each other without contact.
     pub nearness: Nearness,
+    /// A rod that is near itself.
+    pub meets_itself: bool,
     /// Bodies that leave through an open side.
     pub left: Vec<usize>,
 }
@@ -264,6 +266,7 @@ impl<const D: usize> Run<'_, D> {
         self.load_errors.add(&self.series);
         self.compare_forces(&measured.bodies);
         self.check_soundness(&measured.flow)?;
+        self.check_bodies_that_bend()?;
         self.keep_sound_state()?;
         self.propose_contact();
         if is_wanted { self.show_state() } else { Ok(()) }

@@ -217,6 +217,7 @@ impl<const D: usize> State<D> {
         state.0.mesh.nodes = Vec::new();
         state.0.mesh.topology_mut().boundaries = Vec::new();
         state.0.contact.contacts = Vec::new();
+        state.0.contact.on_coordinates = Vec::new();
         state
     }
 

@@ -157,6 +157,7 @@ fn state() -> State<2> {
             energy: 0.5,
             energy_made: -0.01,
             wrenches: vec![Wrench { force: vectors(7.0, 1)[0], torque: vectors(7.5, 1)[0] }],
+            on_coordinates: Vec::new(),
             contacts: Vec::new(),
             minimum_gap: Some(MinimumGap { body: 0, partner: Partner::Wall(2), gap: 0.01 }),
         },

@@ -24,10 +24,17 @@ pub(super) struct StepContext<'a, const D: usize> {
 pub(super) struct Iterate<const D: usize> {
     /// Where bodies are at the new time.
     pub placement: Placement,
-    /// Poses in which bodies are expected to be apart.
-    pub apart: Vec<Pose>,
+    /// Where bodies are expected to be apart.
+    pub apart: Apart,
     /// First guess of the flow.
     pub guess: Guess<D>,
+}
+
+/// Where bodies are expected to be apart.
+pub(super) struct Apart {
+    pub poses: Vec<Pose>,
+    /// Coordinates of all bodies that have some.
+    pub coordinates: Vec<f64>,
 }
 
 /// What a flow is solved from.
@@ -66,11 +73,16 @@ impl<'a, const D: usize> StepContext<'a, D> {
         state: &'a State<D>,
         history: StepHistory<D>,
     ) -> Self {
-        let gaps = stepper.path.gaps(&history.shapes);
+        let shapes = &history.shapes;
+        let has_elastic = stepper.contact.is_some() && stepper.problem.n_coordinates() > 0;
+        let before = has_elastic
+            .then(|| shapes.with_coordinates(&stepper.problem.bodies, &state.shapes.now).ok());
+        let gaps = stepper.path.gaps(before.flatten().as_ref().unwrap_or(shapes));
         Self { stepper, state, history, gaps }
     }
 
-    /// The gaps between bodies as they are shaped at the new time, and walls.
+    /// The gaps between bodies as they are shaped at the new time, and walls; with contact, bodies with coordinates have
+    /// those before the step.
     pub fn gaps(&self) -> Option<&dyn Gaps> {
         self.gaps.as_deref()
     }
@@ -100,6 +112,7 @@ impl<'a, const D: usize> StepContext<'a, D> {
                 resistance: equations.bodies.iter().map(|body| body.resistance).collect(),
                 viscosity: stepper.problem.viscosity.zero_shear(),
             },
+            elastic: self.elastic_at(origin, equations),
         })
     }
 

@@ -4,13 +4,16 @@ use nalgebra::DMatrix;
 
 use super::configuration::StepConfiguration;
 use super::context::StepContext;
+use super::elastic::Beyond;
 use super::error::{FlowError, StepError};
 use super::newton::{Flow, flow_residual};
 use super::placement::Placement;
 use super::workspace::Workspace;
 use crate::body::{BodyLoad, LoadedBody, Pose, Twist};
-use crate::contact::{ContactLoads, LoadedFlow};
-use crate::coupling::{PropulsionPower, ResidualAt, Solution, SolveError, SurfaceLoads};
+use crate::contact::{ContactLoads, InnerForces, LoadedFlow};
+use crate::coupling::{
+    AddedLoads, PropulsionPower, ResidualAt, Solution, SolveError, SurfaceLoads,
+};
 use crate::timing::Stage;
 
 /// The flow and the contact of one configuration.
@@ -72,6 +75,19 @@ impl<const D: usize> LoadedFlow for FlowUnderLoads<'_, D> {
         &self.flow.solution.twists
     }
 
+    fn rates(&self) -> &[f64] {
+        &self.flow.solution.rates
+    }
+
+    fn inner_forces(&self) -> Box<dyn InnerForces> {
+        let equations = &self.configuration.bodies.flexible;
+        Box::new(Beyond(self.work.system.forces_beyond(equations, self.rates())))
+    }
+
+    fn reached_coordinates(&self) -> Vec<f64> {
+        self.step.history.coordinates_with(self.step.state, self.rates())
+    }
+
     fn reached(&self) -> Vec<Pose> {
         // The displacement of the frame is no part of the unknowns
         let StepContext { stepper, state, .. } = self.step;
@@ -90,16 +106,27 @@ impl<const D: usize> LoadedFlow for FlowUnderLoads<'_, D> {
         self.work.system.free_motions(&self.configuration.constraints, bodies)
     }
 
-    fn mobility(&mut self, bodies: &[LoadedBody]) -> Result<DMatrix<f64>, StepError> {
+    fn mobility(
+        &mut self,
+        bodies: &[LoadedBody],
+        with_coordinates: bool,
+    ) -> Result<DMatrix<f64>, StepError> {
         let Workspace { system, timing, .. } = &mut *self.work;
-        let mobility = system.mobility(&self.configuration.constraints, bodies, timing);
+        let constraints = &self.configuration.constraints;
+        let mobility = system.mobility(constraints, bodies, with_coordinates, timing);
         mobility.map_err(|error| self.failure(error))
     }
 
-    fn add_loads(&mut self, loads: &[BodyLoad], tolerance: Option<f64>) -> Result<(), StepError> {
-        if loads.is_empty() {
+    fn add_loads(
+        &mut self,
+        on_bodies: &[BodyLoad],
+        on_coordinates: &[f64],
+        tolerance: Option<f64>,
+    ) -> Result<(), StepError> {
+        if on_bodies.is_empty() && on_coordinates.iter().all(|load| *load == 0.0) {
             return Ok(());
         }
+        let loads = AddedLoads { on_bodies, on_coordinates };
         let Workspace { system, timing, .. } = &mut *self.work;
         let (constraints, solution) = (&self.configuration.constraints, &mut self.flow.solution);
         let added = system.apply_body_loads(constraints, loads, tolerance, solution, timing);

@@ -1,6 +1,6 @@
 //! The end of a step: loads, error, and the level it leads to, with the mesh where the bodies get to.
 
-use super::accuracy::{acceleration, local_error, pose_errors};
+use super::accuracy::{StepEnd, acceleration, local_error, pose_errors};
 use super::configuration::StepConfiguration;
 use super::context::StepContext;
 use super::coupled_flow::CoupledFlow;
@@ -50,18 +50,21 @@ impl<const D: usize> StepContext<'_, D> {
     ) -> Result<StepResult<D>, StepError> {
         let Self { stepper, state, history, .. } = self;
         let poses = &reached.poses;
+        let bent = self.has_elastic_contact().then(|| stepper.path.gaps(&reached.shapes)).flatten();
+        let gaps = bent.as_deref().or(self.gaps());
         let loads = self.loads(work, configuration, &mut flow);
         let mut error = local_error(stepper, state, &history.step, &flow.solution);
         if history.step.bdf.is_second_order() {
             let errors = pose_errors(state, &history.step, poses);
-            error = error.max(stepper.gap_error(self.gaps(), state, poses, &errors));
+            error = error.max(stepper.gap_error(gaps, state, poses, &errors));
         }
         let errors = self.step_errors(&flow.solution, poses);
         let contact = flow
             .contact
             .after(&state.contact, |force, last| history.step.bdf.increment(force, last));
-        let mut contact = stepper.with_minimum_gap(contact, self.gaps(), state, poses);
-        let energy = self.contact_energy(configuration, &flow.solution.twists, poses, &contact);
+        let mut contact = stepper.with_minimum_gap(contact, gaps, state, poses);
+        let end = StepEnd { gaps, solution: &flow.solution, reached: &reached, loads: &contact };
+        let energy = self.contact_energy(configuration, &end);
         contact.energy = energy.stored;
         contact.energy_made = state.contact.energy_made + energy.made;
         let report = StepReport {

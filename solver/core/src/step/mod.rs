@@ -7,6 +7,7 @@ mod accuracy;
 mod configuration;
 mod context;
 mod coupled_flow;
+mod elastic;
 mod error;
 mod explicit;
 mod finish;

@@ -1,13 +1,13 @@
 //! Where bodies get to: velocities extrapolated, contact expected, and poses integrated from velocities.
 
-use super::context::{Guess, Iterate, StepContext};
+use super::context::{Apart, Guess, Iterate, StepContext};
 use super::error::StepError;
 use super::mesh_path::MeshPath;
 use super::placement::Placement;
 use super::stepper::{Step, TimeStepper};
 use super::workspace::Workspace;
 use crate::body::{Mode, Pose, RigidVector, Twist};
-use crate::contact::{ContactLoads, ContactPrediction};
+use crate::contact::{ContactLoads, ContactPrediction, largest_open_part};
 use crate::state::State;
 
 /// Difference of the turns of a magnet at convergence (rad).
@@ -68,7 +68,10 @@ impl<const D: usize> StepContext<'_, D> {
         let coordinates = history.coordinates_with(self.state, &history.extrapolated.rates);
         Ok(Iterate {
             placement: self.placement(poses, coordinates)?,
-            apart: self.state.poses.clone(),
+            apart: Apart {
+                poses: self.state.poses.clone(),
+                coordinates: self.state.shapes.now.clone(),
+            },
             guess: Guess::new(history.extrapolated.clone()),
         })
     }
@@ -101,6 +104,10 @@ impl<const D: usize> StepContext<'_, D> {
         poses: &[Pose],
     ) -> Option<Vec<Twist>> {
         let Self { stepper: TimeStepper { problem, .. }, state, history, .. } = self;
+        // What a rod does in a contact is not to be told from its drag
+        if self.has_elastic_contact() {
+            return None;
+        }
         let equations = history.body_equations(problem, &state.poses);
         let prediction = ContactPrediction {
             contact: self.contact_at(poses, &equations)?,
@@ -117,9 +124,17 @@ impl<const D: usize> StepContext<'_, D> {
 
     /// Shortens the displacements of all bodies by one factor where some would get too near to each other: predictions know
     /// nothing of what is in the way.
-    pub fn keep_gaps_open(&self, iterate: &mut Iterate<D>) {
-        let Some(gaps) = self.gaps() else { return };
-        let Iterate { placement: Placement { poses, .. }, apart, .. } = iterate;
+    ///
+    /// # Errors
+    /// When bodies have no shape between.
+    pub fn keep_gaps_open(&self, iterate: &mut Iterate<D>) -> Result<(), StepError> {
+        if self.has_elastic_contact() {
+            return self.keep_gaps_open_by_shapes(iterate);
+        }
+        let Some(gaps) = self.gaps() else { return Ok(()) };
+        let Iterate {
+            placement: Placement { poses, .. }, apart: Apart { poses: apart, .. }, ..
+        } = iterate;
         let between = |part: f64| -> Vec<Pose> {
             let pairs = apart.iter().zip(&*poses);
             pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect()
@@ -135,6 +150,39 @@ impl<const D: usize> StepContext<'_, D> {
         if part < 1.0 {
             *poses = between(part);
         }
+        Ok(())
+    }
+
+    /// The same of bodies with coordinates, which bend on the way.
+    fn keep_gaps_open_by_shapes(&self, iterate: &mut Iterate<D>) -> Result<(), StepError> {
+        let Self { stepper, state, .. } = self;
+        let (apart, to) = (&iterate.apart, &iterate.placement);
+        let between = |part: f64| {
+            let pairs = apart.poses.iter().zip(&to.poses);
+            let poses = pairs
+                .map(|(from, to)| from.displaced(&(to.displacement_from(from) * part)))
+                .collect();
+            let pairs = apart.coordinates.iter().zip(&to.coordinates);
+            let coordinates = pairs.map(|(from, to)| from + (to - from) * part).collect();
+            self.placement(poses, coordinates)
+        };
+        let gap_of = |placement: &Placement| {
+            let gaps = stepper.path.gaps(&placement.shapes)?;
+            gaps.minimum_gap(&state.in_own_frame(stepper.problem, &placement.poses))
+        };
+        let gap_at = |part: f64| match part {
+            1.0 => gap_of(to).map_or(f64::INFINITY, |minimum| minimum.gap),
+            part => match between(part) {
+                Ok(placement) => gap_of(&placement).map_or(f64::INFINITY, |minimum| minimum.gap),
+                // No shape is none that keeps gaps open
+                Err(_) => f64::NEG_INFINITY,
+            },
+        };
+        let part = largest_open_part(gap_at);
+        if part < 1.0 {
+            iterate.placement = between(part)?;
+        }
+        Ok(())
     }
 
     /// Whether bodies get to where the flow was solved for, with these loads of contact: the fixed-point iteration

@@ -1,7 +1,7 @@
 //! The flow of a step on a configuration, with its contact.
 
 use super::configuration::StepConfiguration;
-use super::context::{Guess, Iterate, StepContext};
+use super::context::{Apart, Guess, Iterate, StepContext};
 use super::coupled_flow::{CoupledFlow, FlowUnderLoads};
 use super::error::StepError;
 use super::newton::{Criterion, Flow, Tangents, newton};
@@ -12,7 +12,7 @@ use crate::contact::{ByMobility, ByQuasiNewton, ContactLoads, CoupledSolver};
 impl<const D: usize> StepContext<'_, D> {
     /// How contact is found in the flow of this step.
     pub fn contact_method(&self, work: &Workspace<D>) -> Box<dyn CoupledSolver<StepError>> {
-        if work.system.is_iterative() {
+        if work.system.is_iterative() && !self.has_elastic_contact() {
             Box::new(ByQuasiNewton::default())
         } else {
             Box::new(ByMobility)
@@ -69,7 +69,12 @@ impl<const D: usize> StepContext<'_, D> {
             is_damped: equations.shears_by_newton(),
             // Later passes correct what the first one leaves
             scale: guess.scale.filter(|_| self.stepper.problem.n_coordinates() > 0),
-            tangents: if equations.has_linear_flow() { of_step.tangents } else { Tangents::System },
+            tangents: match equations.has_linear_flow() {
+                // Contact is found with factors of this mesh
+                true if self.has_elastic_contact() => Tangents::Pass,
+                true => of_step.tangents,
+                false => Tangents::System,
+            },
             ..of_step
         };
         newton(system, timing, &at, &equations, &criterion, start)
@@ -91,6 +96,7 @@ impl<const D: usize> StepContext<'_, D> {
         let guess = Guess { solution, scale: Some(scale), n_systems };
         let solved_at = configuration.placement;
         let placement = self.next_placement(&solved_at, reached, passes)?;
-        Ok(Iterate { placement, apart: solved_at.poses, guess })
+        let Placement { poses, coordinates, .. } = solved_at;
+        Ok(Iterate { placement, apart: Apart { poses, coordinates }, guess })
     }
 }

@@ -39,7 +39,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         let mut iterate = step.predict(work)?;
         for _ in 0..MAX_POSE_ITERATIONS {
             self.check_stop(state)?;
-            step.keep_gaps_open(&mut iterate);
+            step.keep_gaps_open(&mut iterate)?;
             let mut configuration = step.place(work, iterate.placement)?;
             let flow = step.solve(work, &mut configuration, contact.as_mut(), iterate.guess)?;
             let reached = step.integrate(&flow.solution)?;

@@ -176,6 +176,7 @@ impl<'a> Mock<'a> {
             predicted_velocities: &self.velocities[0],
             coefficient: 1.0 / bdf.next,
             start: &self.poses[0],
+            elastic: None,
         }
         .solve()?;
         let now = std::mem::replace(&mut self.poses[0], solution.poses.clone());

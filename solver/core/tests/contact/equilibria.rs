@@ -186,6 +186,7 @@ fn an_imposed_body_pushes_a_free_one() {
             predicted_velocities: &[Twist::default(); 2],
             coefficient: 0.2,
             start: &poses,
+            elastic: None,
         };
         // In one step the pusher goes farther than the gap
         let end = step.solve().unwrap();

@@ -77,6 +77,7 @@ proptest! {
                 predicted_velocities: &velocities,
                 coefficient: 0.03,
                 start: &poses,
+            elastic: None,
             }
             .solve();
             prop_assert!(end.is_ok(), "step {step}: {}", end.unwrap_err());

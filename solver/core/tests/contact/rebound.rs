@@ -126,6 +126,7 @@ impl<'a> Flight<'a> {
             predicted_velocities: &self.twists[0],
             coefficient: 1.0 / bdf.next,
             start: &self.poses[0],
+            elastic: None,
         };
         let Ok(solution) = step.solve() else {
             self.steps[1] += 1;
@@ -143,10 +144,11 @@ impl<'a> Flight<'a> {
             accelerations: [self.accelerations[i], rates[i]],
             displacement: solution.poses[i].displacement_from(&self.poses[0][i]),
             is_alone: true,
+            elastic: None,
         };
         let in_step: Vec<BodyInStep> = (0..n).map(in_step).collect();
         let energy = StepEnergy {
-            gaps: self.gaps,
+            gaps: [self.gaps, self.gaps],
             law: &self.law,
             poses: [&self.poses[0], &solution.poses],
             bodies: &in_step,

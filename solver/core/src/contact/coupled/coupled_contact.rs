@@ -6,7 +6,9 @@ use super::body_rows::BodyRows;
 use super::drag_mobility::BodyDynamics;
 use super::loaded_flow::LoadedFlow;
 use crate::body::{BodyLoad, LoadedBody, Pose, Twist, Wrench};
-use crate::contact::{ContactError, ContactLoads, ContactSolution, ContactStep, Gaps, Law};
+use crate::contact::{
+    ContactError, ContactLoads, ContactSolution, ContactStep, ElasticBodies, ElasticStep, Gaps, Law,
+};
 
 /// Bodies that could be in contact within this times their displacement are candidates.
 const CONTACT_MARGIN: f64 = 2.0;
@@ -25,6 +27,29 @@ pub struct CoupledContact<'a> {
     pub predicted_velocities: Vec<Twist>,
     /// Inertia and resistance of the bodies themselves.
     pub dynamics: BodyDynamics,
+    /// Bodies with coordinates, if there are any; `gaps` is of their coordinates before the step.
+    pub elastic: Option<ElasticContact<'a>>,
+}
+
+/// Bodies with coordinates in the flow of one configuration.
+#[derive(Debug)]
+pub struct ElasticContact<'a> {
+    /// The bodies.
+    pub bodies: Box<dyn ElasticBodies + 'a>,
+    /// Coordinates without velocity.
+    pub unmoved: Vec<f64>,
+    /// Coordinates before the step.
+    pub start: Vec<f64>,
+}
+
+impl ElasticContact<'_> {
+    /// Bodies that take part in a contact wherever it is: those with coordinates, which have many velocities, and those that
+    /// they are attached to.
+    fn all(&self) -> impl Iterator<Item = usize> {
+        let ranges = self.bodies.ranges().iter().enumerate();
+        let own = ranges.filter(|(_, range)| !range.is_empty()).map(|(body, _)| body);
+        own.chain(self.bodies.bases().iter().copied())
+    }
 }
 
 impl CoupledContact<'_> {
@@ -36,8 +61,61 @@ impl CoupledContact<'_> {
     /// The bodies that may get within the range of something on their way from the start to poses, and those with loads;
     /// ascending.
     pub(super) fn candidate_bodies(&self, reached: &[Pose], loads: &ContactLoads) -> Vec<usize> {
+        let bounds = self.gaps.displacement_bounds(&self.start, reached);
+        self.candidates_within(&bounds, loads)
+    }
+
+    /// The bodies that may be in contact in a flow, as it is without.
+    pub(super) fn candidates_in<E: From<ContactError>>(
+        &self,
+        flow: &dyn LoadedFlow<Error = E>,
+    ) -> Vec<usize> {
+        let none = ContactLoads::none(self.gaps.n_bodies());
+        let Some(elastic) = &self.elastic else {
+            let bounds = self.gaps.displacement_bounds(&self.start, &flow.reached());
+            return self.candidates_within(&bounds, &none);
+        };
+        let mut bodies = self.candidates_within(&self.ways_in(elastic, flow), &none);
+        if !bodies.is_empty() {
+            bodies.extend(elastic.all());
+            bodies.sort_unstable();
+            bodies.dedup();
+        }
+        bodies
+    }
+
+    /// How far bodies get at most in a flow (m).
+    fn ways_in<E: From<ContactError>>(
+        &self,
+        elastic: &ElasticContact<'_>,
+        flow: &dyn LoadedFlow<Error = E>,
+    ) -> Vec<f64> {
+        let mut ways = self.gaps.displacement_bounds(&self.start, &flow.reached());
+        let reached = flow.reached_coordinates();
+        let own = elastic.bodies.displacement_bounds(&elastic.start, &reached);
+        for ((way, own), range) in ways.iter_mut().zip(own).zip(elastic.bodies.ranges()) {
+            *way = if range.is_empty() { *way } else { own };
+        }
+        ways
+    }
+
+    /// Whether all bodies get to where nothing is in the range of anything, in a flow without contact, and cannot have gone
+    /// through each other.
+    pub(super) fn is_free_in<E: From<ContactError>>(
+        &self,
+        elastic: &ElasticContact<'_>,
+        flow: &dyn LoadedFlow<Error = E>,
+    ) -> bool {
+        let (mut poses, mut coordinates) = (flow.reached(), flow.reached_coordinates());
+        let Some(gaps) = elastic.bodies.place(&mut poses, &mut coordinates) else { return false };
+        gaps.pairs(&poses, self.law.range()).is_empty()
+            && self.gaps.max_part_of(&self.start, &self.ways_in(elastic, flow)) >= 1.0
+    }
+
+    /// Those that may, where bodies move no farther than these lengths (m).
+    fn candidates_within(&self, bounds: &[f64], loads: &ContactLoads) -> Vec<usize> {
         let range = self.law.range();
-        let mut bodies = self.gaps.candidate_bodies(&self.start, reached, CONTACT_MARGIN, range);
+        let mut bodies = self.gaps.candidates_within(&self.start, bounds, CONTACT_MARGIN, range);
         let wrenches = loads.wrenches.iter().enumerate();
         bodies.extend(wrenches.filter(|(_, load)| is_load(load)).map(|(body, _)| body));
         bodies.sort_unstable();
@@ -96,6 +174,44 @@ impl CoupledContact<'_> {
             predicted_velocities: &predicted_velocities,
             coefficient: 1.0 / self.dynamics.rate,
             start: &self.start,
+            elastic: None,
+        };
+        step.solve()
+    }
+
+    /// The forces of contact of all that may be in contact in a flow without, by the mobility of bodies and coordinates.
+    ///
+    /// # Errors
+    /// When they are not found.
+    pub(super) fn solve_with_coordinates<E: From<ContactError>>(
+        &self,
+        elastic: &ElasticContact<'_>,
+        bodies: &[usize],
+        flow: &dyn LoadedFlow<Error = E>,
+        mobility: &DMatrix<f64>,
+    ) -> Result<ContactSolution, ContactError> {
+        let of_bodies = |twists: &[Twist]| bodies.iter().map(|&body| twists[body]).collect();
+        let [free, predicted]: [Vec<Twist>; 2] =
+            [flow.twists(), &self.predicted_velocities[..]].map(of_bodies);
+        let forces = flow.inner_forces();
+        let step = ContactStep {
+            gaps: self.gaps,
+            law: self.law,
+            modes: self.gaps.modes(),
+            bodies,
+            free_velocities: &free,
+            mobility,
+            predicted: &self.predicted,
+            predicted_velocities: &predicted,
+            coefficient: 1.0 / self.dynamics.rate,
+            start: &self.start,
+            elastic: Some(ElasticStep {
+                bodies: elastic.bodies.as_ref(),
+                forces: forces.as_ref(),
+                unmoved: &elastic.unmoved,
+                start: &elastic.start,
+                free_rates: flow.rates(),
+            }),
         };
         step.solve()
     }
@@ -113,7 +229,7 @@ impl CoupledContact<'_> {
     ) -> Result<(), E> {
         let changes = changed_loads(applied, &next);
         *applied = next;
-        flow.add_loads(&changes, tolerance)
+        flow.add_loads(&changes, &[], tolerance)
     }
 }
 

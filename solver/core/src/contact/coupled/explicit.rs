@@ -56,13 +56,13 @@ impl<'a> StageContact<'a> {
             return Ok(());
         }
         let bodies = self.bodies();
-        let mobility = flow.mobility(&loaded_bodies(self.gaps, self.law, &bodies))?;
+        let mobility = flow.mobility(&loaded_bodies(self.gaps, self.law, &bodies), false)?;
         let rate = self.fastest_decay(&bodies, &mobility);
         if rate * size > LARGEST_DECAY {
             return Err(ContactError::Stiff { size, time_scale: 1.0 / rate }.into());
         }
         let none = ContactLoads::none(self.loads.wrenches.len());
-        flow.add_loads(&changed_loads(&none, &self.loads), None)
+        flow.add_loads(&changed_loads(&none, &self.loads), &[], None)
     }
 
     /// The bodies in contact, ascending.

@@ -19,7 +19,7 @@ mod quasi_newton;
 mod secant_mobility;
 
 pub use by_mobility::ByMobility;
-pub use coupled_contact::CoupledContact;
+pub use coupled_contact::{CoupledContact, ElasticContact};
 pub use coupled_solver::CoupledSolver;
 pub use drag_mobility::BodyDynamics;
 pub use explicit::StageContact;

@@ -59,20 +59,19 @@ pub trait Gaps: Debug + Send + Sync {
 
     /// The fraction, at most 1, of the displacements between poses within which no body can get to
     /// the far side of another.
-    fn max_step_fraction(&self, from: &[Pose], to: &[Pose]) -> f64;
+    fn max_step_fraction(&self, from: &[Pose], to: &[Pose]) -> f64 {
+        self.max_part_of(from, &self.displacement_bounds(from, to))
+    }
+
+    /// The same of displacements from poses by which no point of a body moves farther than these lengths (m).
+    fn max_part_of(&self, from: &[Pose], bounds: &[f64]) -> f64;
 
     /// The part of a displacement, at most 1, that leaves half of the smallest gap: halved as often as that asks for.
     /// `poses_at` gives the poses of all bodies after a part of it.
     fn part_that_keeps_open(&self, poses_at: &dyn Fn(f64) -> Vec<Pose>) -> f64 {
-        let gap_at = |part: f64| {
+        largest_open_part(|part| {
             self.minimum_gap(&poses_at(part)).map_or(f64::INFINITY, |minimum| minimum.gap)
-        };
-        let kept = KEPT_GAP * gap_at(0.0);
-        let mut part = 1.0;
-        while gap_at(part) < kept && part > SMALLEST_PART {
-            part *= 0.5;
-        }
-        part
+        })
     }
 
     /// Length by which a component of a motion of a body counts as a displacement: the reach (m) for
@@ -103,12 +102,27 @@ pub trait Gaps: Debug + Send + Sync {
         distance + turn * self.reach(body)
     }
 
+    /// The same of all bodies.
+    fn displacement_bounds(&self, from: &[Pose], to: &[Pose]) -> Vec<f64> {
+        let bound = |body: usize| self.displacement_bound(body, &from[body], &to[body]);
+        (0..self.n_bodies()).map(bound).collect()
+    }
+
     /// The bodies that may come nearer than `range` (m) to anything when each moves from its pose
     /// in `from` no farther than `margin` times the displacement to that in `to`, ascending.
     fn candidate_bodies(&self, from: &[Pose], to: &[Pose], margin: f64, range: f64) -> Vec<usize> {
-        let bounds = (0..self.n_bodies())
-            .map(|body| margin * self.displacement_bound(body, &from[body], &to[body]));
-        let farthest = bounds.fold(0.0, f64::max);
+        self.candidates_within(from, &self.displacement_bounds(from, to), margin, range)
+    }
+
+    /// The same where each moves no farther than `margin` times one of these lengths (m).
+    fn candidates_within(
+        &self,
+        from: &[Pose],
+        bounds: &[f64],
+        margin: f64,
+        range: f64,
+    ) -> Vec<usize> {
+        let farthest = bounds.iter().map(|bound| margin * bound).fold(0.0, f64::max);
         let mut candidates = Vec::new();
         for pair in self.pairs(from, range + 2.0 * farthest) {
             candidates.push(pair.body);
@@ -120,4 +134,15 @@ pub trait Gaps: Debug + Send + Sync {
         candidates.dedup();
         candidates
     }
+}
+
+/// The largest part, at most 1, of a displacement that leaves half of the smallest gap (m) at its start: halved as often as
+/// that asks for.
+pub fn largest_open_part(gap_at: impl Fn(f64) -> f64) -> f64 {
+    let kept = KEPT_GAP * gap_at(0.0);
+    let mut part = 1.0;
+    while gap_at(part) < kept && part > SMALLEST_PART {
+        part *= 0.5;
+    }
+    part
 }

@@ -8,15 +8,17 @@ mod gaps;
 mod pair;
 mod pair_vector;
 mod planar;
+mod section;
 mod spatial;
 mod surface;
 mod surface_gaps;
 
 pub use curvature::Curvatures;
-pub use gaps::{Gaps, MinimumGap};
+pub use gaps::{Gaps, MinimumGap, largest_open_part};
 pub use pair::{ContactPair, Partner};
 pub use pair_vector::{PairMatrix, PairVector};
 pub use planar::{PlanarGaps, PlanarSurface};
+pub use section::{COORDINATES_OF_SECTION, Section, Sections};
 pub use spatial::{SpatialGaps, SpatialSurface, frame_of};
 pub use surface::{ContactSurface, FacingPoints};
 pub use surface_gaps::SurfaceGaps;

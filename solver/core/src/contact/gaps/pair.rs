@@ -4,6 +4,7 @@ use nalgebra::{DVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::Curvatures;
+use super::Section;
 use super::pair_vector::{PairMatrix, PairVector};
 use crate::body::{Modes, RigidVector, Wrench};
 
@@ -29,6 +30,8 @@ pub struct ContactPair {
     pub normal: Vector3<f64>,
     /// From the centres of mass of body and partner to their points (m); zero for a wall.
     pub levers: [Vector3<f64>; 2],
+    /// What of body and partner moves with their points, where they have coordinates.
+    pub sections: [Option<Section>; 2],
     /// Curvatures of body and partner at their points.
     pub curvatures: Curvatures,
     /// Share of the law's force, from 0 to 1.
@@ -62,7 +65,24 @@ pub(super) fn blend_weights(pairs: &mut [ContactPair], size: f64, range: f64) {
 }
 
 impl ContactPair {
-    /// Derivatives of the gap by the displacements of the body and of its partner.
+    /// Whether a side of it moves with a section of a body with coordinates.
+    #[must_use]
+    pub fn moves_by_sections(&self) -> bool {
+        self.sections.iter().any(Option::is_some)
+    }
+
+    /// From what moves with the points of body and partner to them (m): from the centres of mass, or from those of sections.
+    fn arms(&self) -> [Vector3<f64>; 2] {
+        let [body, partner] = self.sections.each_ref().map(Option::as_ref);
+        let arm = |lever: Vector3<f64>, section: Option<&Section>| match section {
+            Some(section) => lever - section.center,
+            None => lever,
+        };
+        [arm(self.levers[0], body), arm(self.levers[1], partner)]
+    }
+
+    /// Derivatives of the gap by the displacements of the body and of its partner, of their sections where they have
+    /// coordinates.
     ///
     /// They are also the directions of the load: the force times them acts on both.
     #[must_use]
@@ -74,8 +94,13 @@ impl ContactPair {
     /// its partner; also the loads of that vector as a force on the body.
     #[must_use]
     pub fn gradient_along(&self, vector: &Vector3<f64>) -> [RigidVector; 2] {
-        let [on_body, on_partner] = self.levers.map(|lever| lever.cross(vector));
-        [join(vector, &on_body), join(&-vector, &-on_partner)]
+        self.on_both(vector, &self.arms())
+    }
+
+    /// A force on the body, and the opposite one on its partner, at these levers.
+    fn on_both(&self, force: &Vector3<f64>, levers: &[Vector3<f64>; 2]) -> [RigidVector; 2] {
+        let [on_body, on_partner] = levers.map(|lever| lever.cross(force));
+        [join(force, &on_body), join(&-force, &-on_partner)]
             .map(|gradient| self.modes.project(&gradient))
     }
 
@@ -118,7 +143,8 @@ impl ContactPair {
     /// points.
     #[must_use]
     pub fn gradient_derivative(&self) -> PairMatrix {
-        let mut matrix = self.curvatures.gradient_derivative(&self.normal, self.gap, &self.levers);
+        let arms = self.arms();
+        let mut matrix = self.curvatures.gradient_derivative(&self.normal, self.gap, &arms);
         let counts = |i: usize| self.modes.iter().any(|mode| mode.index() == i % 6);
         for i in (0..12).filter(|i| !counts(*i)) {
             matrix.row_mut(i).fill(0.0);
@@ -134,11 +160,17 @@ impl ContactPair {
         self.curvatures.regularity(self.gap)
     }
 
-    /// Loads on the body and on its partner by a repulsive force (N; N/m planar).
+    /// Loads on the body and on its partner by a repulsive force (N; N/m planar), about their centres of mass.
     #[must_use]
     pub fn loads(&self, force: f64) -> [Wrench; 2] {
+        let sides = self.on_both(&self.normal, &self.levers);
         // Projected last, since no motion means no load even by an infinite force
-        self.gradient().map(|side| Wrench::from_vector(&self.modes.project(&(side * force))))
+        sides.map(|side| Wrench::from_vector(&self.modes.project(&(side * force))))
+    }
+
+    /// The same of a force of any direction on the body (N; N/m planar).
+    pub(in crate::contact) fn loads_along(&self, force: &Vector3<f64>) -> [Wrench; 2] {
+        self.on_both(force, &self.levers).map(|side| Wrench::from_vector(&side))
     }
 }
 

@@ -1,5 +1,7 @@
 //! `PlanarGaps`: outlines of all bodies and walls, in the plane or on the axis.
 
+use std::sync::Arc;
+
 use alewife_mesh::{
     Closest, Domain, Outline, PlacedShape, Point, Wall, closest, closest_features, closest_to_wall,
     on_meridian, thickness, wall_features,
@@ -8,7 +10,7 @@ use nalgebra::Rotation2;
 
 use super::surface::{ContactSurface, FacingPoints};
 use super::surface_gaps::{BodySolid, SurfaceGaps, WallSide};
-use super::{Curvatures, Gaps};
+use super::{Curvatures, Gaps, Sections};
 use crate::body::{Modes, Pose, in_space, on_mesh};
 use crate::contact::ContactError;
 
@@ -61,6 +63,12 @@ impl PlanarGaps {
     pub fn deform_outline(&mut self, body: usize, outline: Outline) {
         let is_meridian = self.modes() == Modes::AXISYMMETRIC;
         self.deform(body, PlanarSurface { outline, is_meridian });
+    }
+
+    /// The same of a body with coordinates, whose points move with sections.
+    pub fn bend_outline(&mut self, body: usize, outline: Outline, sections: Arc<dyn Sections>) {
+        let is_meridian = self.modes() == Modes::AXISYMMETRIC;
+        self.bend(body, PlanarSurface { outline, is_meridian }, sections);
     }
 }
 

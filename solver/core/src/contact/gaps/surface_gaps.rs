@@ -1,6 +1,7 @@
 //! `SurfaceGaps`: the surfaces of all bodies and walls, and where they are close.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use alewife_mesh::Point;
 use nalgebra::Vector3;
@@ -9,7 +10,7 @@ use super::broad_phase::{Ball, BroadPhase, combinations};
 use super::encounter::{Encounter, Facing};
 use super::pair::blend_weights;
 use super::surface::ContactSurface;
-use super::{ContactPair, Gaps, MinimumGap, Partner};
+use super::{ContactPair, Gaps, MinimumGap, Partner, Section, Sections};
 use crate::body::{Modes, Pose, in_space, on_mesh};
 
 /// Bodies up to which all gaps are looked at to find the smallest one.
@@ -28,6 +29,8 @@ pub(super) struct BodySolid<const D: usize, S> {
     /// No point is farther from the centre of mass (m).
     reach: f64,
     thickness: f64,
+    /// What its points move with, of a body with coordinates.
+    sections: Option<Arc<dyn Sections>>,
 }
 
 /// A side of the domain that is a wall.
@@ -57,7 +60,7 @@ impl<const D: usize, S: ContactSurface<D>> BodySolid<D, S> {
     /// A body with its surface, the centre of mass in the frame of that (m).
     pub(super) fn new(name: String, surface: S, centroid: Point<D>) -> Self {
         let (reach, thickness) = (surface.reach() + centroid.norm(), surface.thickness());
-        Self { name, surface, centroid, reach, thickness }
+        Self { name, surface, centroid, reach, thickness, sections: None }
     }
 
     /// The surface with the body in a pose, moved away by a vector (m).
@@ -81,6 +84,21 @@ impl<const D: usize, S: ContactSurface<D>> SurfaceGaps<D, S> {
     pub fn deform(&mut self, body: usize, surface: S) {
         let name = std::mem::take(&mut self.bodies[body].name);
         self.bodies[body] = BodySolid::new(name, surface, Point::zeros());
+    }
+
+    /// Gives a body with coordinates another surface, as [`Self::deform`] does, whose points move with sections: its thickness
+    /// stays what it was.
+    pub fn bend(&mut self, body: usize, surface: S, sections: Arc<dyn Sections>) {
+        let bent = &mut self.bodies[body];
+        bent.reach = surface.reach();
+        (bent.surface, bent.centroid) = (surface, Point::zeros());
+        bent.sections = Some(sections);
+    }
+
+    /// What moves with a point of a body in a pose, from its centre of mass (m).
+    fn section(&self, body: usize, pose: &Pose, lever: &Vector3<f64>) -> Option<Section> {
+        let sections = self.bodies[body].sections.as_ref()?;
+        Some(sections.at(&pose.to_body(lever))?.seen_from(pose))
     }
 
     /// Leaves the gaps of pairs of bodies that share a pivot out of account.
@@ -181,9 +199,12 @@ impl<const D: usize, S: ContactSurface<D>> SurfaceGaps<D, S> {
         let first = pairs.len();
         pairs.extend(met.points(range).into_iter().map(|at| {
             let lever = at.first - poses[body].center;
-            let other = match partner {
-                Partner::Body(other) => at.second - in_space(&away) - poses[other].center,
-                Partner::Wall(_) => Vector3::zeros(),
+            let (other, other_section) = match partner {
+                Partner::Body(other) => {
+                    let lever = at.second - in_space(&away) - poses[other].center;
+                    (lever, self.section(other, &poses[other], &lever))
+                }
+                Partner::Wall(_) => (Vector3::zeros(), None),
             };
             ContactPair {
                 body,
@@ -191,6 +212,7 @@ impl<const D: usize, S: ContactSurface<D>> SurfaceGaps<D, S> {
                 gap: at.gap,
                 normal: at.normal,
                 levers: [lever, other],
+                sections: [self.section(body, &poses[body], &lever), other_section],
                 curvatures: at.curvatures,
                 weight: 1.0,
                 modes: self.modes,
@@ -279,10 +301,7 @@ impl<const D: usize, S: ContactSurface<D>> Gaps for SurfaceGaps<D, S> {
     }
 
     /// Half the thickness of the thinner body; walls end the domain and cannot be crossed.
-    fn max_step_fraction(&self, from: &[Pose], to: &[Pose]) -> f64 {
-        let bounds: Vec<f64> = (0..self.n_bodies())
-            .map(|body| self.displacement_bound(body, &from[body], &to[body]))
-            .collect();
+    fn max_part_of(&self, from: &[Pose], bounds: &[f64]) -> f64 {
         let ball = |body: usize| Ball {
             center: center(&from[body]),
             radius: self.bodies[body].reach + bounds[body],

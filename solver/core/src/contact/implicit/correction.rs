@@ -46,18 +46,19 @@ impl ContactStep<'_> {
             return velocity;
         }
         for _ in 0..MAX_CORRECTIONS {
-            let poses = self.poses(&velocity);
+            let Some(at) = self.place(&velocity) else { break };
+            let (gaps, poses) = (at.gaps(self.gaps), &at.poses);
             let bounds = self
                 .bodies
                 .iter()
-                .map(|&body| self.gaps.displacement_bound(body, &now.poses[body], &poses[body]));
+                .map(|&body| gaps.displacement_bound(body, &now.at.poses[body], &poses[body]));
             // A contact that has opened too far is still to be found
             let range = self.law.range() + bounds.fold(0.0, f64::max);
-            let found = self.gaps.pairs(&poses, range);
+            let found = gaps.pairs(poses, range);
             let matches: Vec<Match<'_>> = targets
                 .iter()
                 .filter_map(|target| {
-                    let pair = successor(&target.pair, &found, &now.poses, &poses)?;
+                    let pair = successor(&target.pair, &found, &now.at.poses, poses)?;
                     Some(Match { target, pair })
                 })
                 .collect();

@@ -22,6 +22,10 @@ impl ContactStep<'_> {
     /// Newton's step with finite differences of the loads for their derivative.
     pub(super) fn finite_difference_direction(&self, now: &Trial) -> DVector<f64> {
         let n = now.velocity.len();
+        if self.elastic.is_some() {
+            // Each of many coordinates would take a shape: there is no such direction
+            return DVector::from_element(n, f64::NAN);
+        }
         let gap = narrowest(&now.pairs).map_or(self.law.range(), |pair| pair.gap);
         let mut stiffness = DMatrix::<f64>::zeros(n, n);
         for (row, (index, mode)) in self.rows().enumerate() {
@@ -29,7 +33,7 @@ impl ContactStep<'_> {
             let distance = DIFFERENCE * gap.min(self.gaps.reach(body));
             let size = distance / self.length(index, mode);
             let loads = [1.0, -1.0].map(|sign| {
-                let mut poses = now.poses.clone();
+                let mut poses = now.at.poses.clone();
                 let mut displacement = RigidVector::zeros();
                 displacement[mode] = sign * size;
                 poses[body] = poses[body].displaced(&displacement);
@@ -67,6 +71,12 @@ impl ContactStep<'_> {
         let mut matrix = DMatrix::identity(n, n) - self.mobility * by_velocity * self.coefficient;
         if let Some(damping) = self.damping(now) {
             matrix -= self.mobility * damping;
+        }
+        if let Some(elastic) = self.elastic {
+            let (first, own) = (self.n_rigid_rows(), elastic.n_coordinates());
+            let tangent = elastic.forces.tangent(self.rates(&now.velocity));
+            let mut columns = matrix.columns_mut(first, own);
+            columns += self.mobility.columns(first, own) * tangent;
         }
         let solved = matrix.lu().solve(&now.residual);
         // A singular matrix gives no direction, which the caller sees as a step that is not finite

@@ -3,6 +3,8 @@
 mod correction;
 mod direction;
 mod dissipative;
+mod inner_forces;
+mod placed;
 mod step;
 mod unknowns;
 

@@ -15,26 +15,32 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::body::{Modes, Pose, Twist};
+use super::placed::Placed;
+use crate::body::{Mode, Modes, Pose, Twist};
 use crate::contact::{
-    ContactError, ContactForce, ContactLoads, ContactPair, Gaps, Law, LawKind, MinimumGap, Partner,
+    ContactError, ContactForce, ContactLoads, ContactPair, ElasticStep, Gaps, Law, LawKind,
+    MinimumGap, Partner,
 };
 
 /// Most iterations of Newton's method.
 const MAX_ITERATIONS: usize = 200;
+/// The same of bodies with coordinates, whose shapes take time: a shorter step is soon found.
+const MAX_ELASTIC_ITERATIONS: usize = 40;
 /// Most halvings of a step.
 const MAX_HALVINGS: usize = 60;
 /// Change of poses over the size of the numbers they are made of that is rounding.
 const ROUNDING: f64 = 4e-15;
 /// Change of poses over the smallest gap below which Newton's method has converged.
 const TOLERANCE: f64 = 1e-11;
+/// The same of bodies with coordinates where it does not fall any more.
+const SETTLED: f64 = 1e-6;
 /// Residual over the one before above which other directions are tried.
 const POOR: f64 = 0.5;
 /// Gap over the range below which the quadratic law cannot hold the load.
 const CLOSED: f64 = 1e-9;
 
 /// What is known before the contact forces of a step.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct ContactStep<'a> {
     /// Surfaces of bodies and walls.
     pub gaps: &'a dyn Gaps,
@@ -59,6 +65,9 @@ pub struct ContactStep<'a> {
     pub coefficient: f64,
     /// Poses of all bodies before the step, in which they are apart.
     pub start: &'a [Pose],
+    /// Bodies with coordinates, whose rates are further rows of the mobility, all of them; `gaps` is of their coordinates
+    /// before the step.
+    pub elastic: Option<ElasticStep<'a>>,
 }
 
 /// Contact at the end of a step.
@@ -70,6 +79,8 @@ pub struct ContactSolution {
     pub poses: Vec<Pose>,
     /// Loads on all bodies, contacts, smallest gap.
     pub loads: ContactLoads,
+    /// Forces within bodies with coordinates beyond the linear ones, against their rates.
+    pub beyond: DVector<f64>,
     /// Iterations of Newton's method.
     pub iterations: usize,
 }
@@ -77,7 +88,7 @@ pub struct ContactSolution {
 /// Velocities with all that follows from them.
 pub(super) struct Trial {
     pub velocity: DVector<f64>,
-    pub poses: Vec<Pose>,
+    pub at: Placed,
     pub pairs: Vec<ContactPair>,
     /// U - U* - M f, and its norm with rotations times the reach of the body.
     pub residual: DVector<f64>,
@@ -96,11 +107,12 @@ impl ContactStep<'_> {
         self.check_numbers()?;
         let mut now = self.first_trial()?;
         let (mut change, mut iterations) = (f64::INFINITY, 0);
-        while iterations < MAX_ITERATIONS {
+        let most = if self.elastic.is_some() { MAX_ELASTIC_ITERATIONS } else { MAX_ITERATIONS };
+        while iterations < most {
             iterations += 1;
             let exact = self.newton_direction(&now);
-            change = self.size(&exact);
-            if change <= self.tolerance(&now) {
+            let last = std::mem::replace(&mut change, self.size(&exact));
+            if change <= self.tolerance(&now) || self.is_rounding(&now, change, last) {
                 return Ok(self.finish(&now, &exact, iterations));
             }
             let mut next = self.search(&now, &exact);
@@ -120,7 +132,7 @@ impl ContactStep<'_> {
             now = next;
             self.check_strength(&now)?;
         }
-        let (first, second, gap) = match self.gaps.minimum_gap(&now.poses) {
+        let (first, second, gap) = match now.at.gaps(self.gaps).minimum_gap(&now.at.poses) {
             Some(MinimumGap { body, partner, gap }) => {
                 let [first, second] = self.names(body, partner);
                 (first, second, gap)
@@ -170,30 +182,47 @@ impl ContactStep<'_> {
 
     /// Velocities that leave the bodies in the poses before the step.
     fn first_trial(&self) -> Result<Trial, ContactError> {
-        let velocity = self.by_row(|index, mode| {
+        let of_body = |index: usize, mode: Mode| {
             let body = self.bodies[index];
             let back = self.start[body].displacement_from(&self.predicted[body]);
             self.predicted_velocities[index].component(mode) + back[mode] / self.coefficient
-        });
-        let poses = self.poses(&velocity);
-        let pairs = self.gaps.pairs(&poses, self.law.range());
+        };
+        let of_coordinate = |at: usize| {
+            self.elastic
+                .map_or(0.0, |elastic| (elastic.start[at] - elastic.unmoved[at]) / self.coefficient)
+        };
+        let velocity = self.by_row(of_body, of_coordinate);
+        let refuse = || ContactError::Input { what: "a body has no shape at the start".to_owned() };
+        let at = self.place(&velocity).ok_or_else(refuse)?;
+        let pairs = at.gaps(self.gaps).pairs(&at.poses, self.law.range());
         if let Some(touching) = narrowest(&pairs).filter(|pair| pair.gap <= 0.0) {
             let [first, second] = self.names(touching.body, touching.partner);
             return Err(ContactError::Overlap { first, second, gap: touching.gap });
         }
-        Ok(self.trial(velocity, poses, pairs))
+        Ok(self.trial(velocity, at, pairs))
     }
 
-    fn trial(&self, velocity: DVector<f64>, poses: Vec<Pose>, pairs: Vec<ContactPair>) -> Trial {
-        let load = self.load(&pairs, &velocity);
+    /// Velocities without contact, by row.
+    fn free(&self) -> DVector<f64> {
+        let of_coordinate = |at: usize| self.elastic.map_or(0.0, |elastic| elastic.free_rates[at]);
+        self.by_row(|index, mode| self.free_velocities[index].component(mode), of_coordinate)
+    }
+
+    fn trial(&self, velocity: DVector<f64>, at: Placed, pairs: Vec<ContactPair>) -> Trial {
+        let mut load = self.load(&pairs, &velocity);
+        if let Some(elastic) = self.elastic {
+            let beyond = elastic.forces.beyond_linear(self.rates(&velocity));
+            let mut own = load.rows_mut(self.n_rigid_rows(), elastic.n_coordinates());
+            own -= beyond;
+        }
         let pushed = self.mobility * load;
-        let free = self.by_row(|index, mode| self.free_velocities[index].component(mode));
+        let free = self.free();
         let residual =
             DVector::from_fn(velocity.len(), |row, _| velocity[row] - free[row] - pushed[row]);
         let lengths = self.lengths();
         let weighted = residual.iter().zip(&lengths).map(|(r, length)| (r * length).powi(2));
         let norm = weighted.sum::<f64>().sqrt();
-        Trial { velocity, poses, pairs, residual, norm }
+        Trial { velocity, at, pairs, residual, norm }
     }
 
     /// Sum of the loads of pairs of bodies with these velocities, by row.
@@ -207,9 +236,18 @@ impl ContactStep<'_> {
         load
     }
 
+    /// Whether a change after another one is as small as it gets: stiff bodies with coordinates are found to the rounding of
+    /// large forces.
+    fn is_rounding(&self, now: &Trial, change: f64, last: f64) -> bool {
+        let gap = narrowest(&now.pairs).map_or(self.law.range(), |pair| pair.gap);
+        self.elastic.is_some() && change <= SETTLED * gap && change > POOR * last
+    }
+
     fn tolerance(&self, now: &Trial) -> f64 {
-        let scale =
-            self.bodies.iter().map(|&body| now.poses[body].center.amax() + self.gaps.reach(body));
+        let scale = self
+            .bodies
+            .iter()
+            .map(|&body| now.at.poses[body].center.amax() + self.gaps.reach(body));
         let rounding = ROUNDING * scale.fold(0.0, f64::max);
         let gap = narrowest(&now.pairs).map_or(self.law.range(), |pair| pair.gap);
         rounding.max(TOLERANCE * gap)
@@ -220,16 +258,18 @@ impl ContactStep<'_> {
         if !step.iter().all(|number| number.is_finite()) {
             return None;
         }
-        let full = self.poses(&(&now.velocity + step));
-        let mut fraction = self.gaps.max_step_fraction(&now.poses, &full);
+        let mut fraction = self.max_step_fraction(&now.at, &(&now.velocity + step));
         let at_rounding = 100.0 * self.tolerance(now);
         let displacement = self.size(step);
         for _ in 0..MAX_HALVINGS {
             let velocity = self.second_order_correction(now, step, fraction);
-            let poses = self.poses(&velocity);
-            let pairs = self.gaps.pairs(&poses, self.law.range());
-            if pairs.iter().all(|pair| pair.gap > 0.0) {
-                let trial = self.trial(velocity, poses, pairs);
+            let velocity = self.with_inner_forces(now, velocity);
+            let pairs = |at: &Placed| at.gaps(self.gaps).pairs(&at.poses, self.law.range());
+            let placed = self.place(&velocity).map(|at| (pairs(&at), at));
+            if let Some((pairs, at)) = placed
+                && pairs.iter().all(|pair| pair.gap > 0.0)
+            {
+                let trial = self.trial(velocity, at, pairs);
                 let wanted = (1.0 - 1e-4 * fraction) * now.norm;
                 if trial.norm <= wanted || fraction * displacement <= at_rounding {
                     return Some(trial);
@@ -268,10 +308,21 @@ impl ContactStep<'_> {
                 dissipative: dissipative.get(nth).copied().unwrap_or_default(),
             }
         });
-        let poses = self.poses(&velocity);
-        let minimum_gap = self.gaps.minimum_gap(&poses);
+        let placed = self.place(&velocity);
+        // A last step is too small to bend a body out of shape
+        let at = placed.as_ref().unwrap_or(&now.at);
+        let minimum_gap = at.gaps(self.gaps).minimum_gap(&at.poses);
         let loads = ContactLoads::gather(self.gaps.n_bodies(), contacts.collect(), minimum_gap);
-        ContactSolution { velocities: self.twists(&velocity), poses, loads, iterations }
+        let poses = at.poses.clone();
+        let Some(elastic) = self.elastic else {
+            let (velocities, beyond) = (self.twists(&velocity), DVector::zeros(0));
+            return ContactSolution { velocities, poses, loads, beyond, iterations };
+        };
+        let loads = loads.with_coordinates(elastic.bodies.ranges());
+        let rates = self.rates(&now.velocity);
+        let own = step.rows(self.n_rigid_rows(), elastic.n_coordinates());
+        let beyond = elastic.forces.beyond_linear(rates) + elastic.forces.tangent(rates) * own;
+        ContactSolution { velocities: self.twists(&velocity), poses, loads, beyond, iterations }
     }
 
     fn names(&self, body: usize, partner: Partner) -> [String; 2] {

@@ -7,6 +7,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3};
 
+use super::placed::Placed;
 use super::step::ContactStep;
 use crate::body::{Mode, Pose, RigidVector, Twist};
 use crate::contact::{ContactPair, PairMatrix, PairVector, Partner};
@@ -14,9 +15,20 @@ use crate::contact::{ContactPair, PairMatrix, PairVector, Partner};
 /// Angle below which the left Jacobian is taken from its series (rad).
 const SMALL_ANGLE: f64 = 1e-2;
 
+/// A row with what it counts in the displacements of both sides of a pair.
+struct RowOfPair {
+    row: usize,
+    weights: PairVector,
+}
+
 impl ContactStep<'_> {
-    pub(super) fn n_rows(&self) -> usize {
+    /// Rows of rigid motions; those of all coordinates follow them.
+    pub(super) fn n_rigid_rows(&self) -> usize {
         self.modes.len() * self.bodies.len()
+    }
+
+    pub(super) fn n_rows(&self) -> usize {
+        self.n_rigid_rows() + self.elastic.map_or(0, |elastic| elastic.n_coordinates())
     }
 
     /// For each row the position of its body among those of the step, and its motion.
@@ -24,9 +36,53 @@ impl ContactStep<'_> {
         (0..self.bodies.len()).flat_map(|index| self.modes.iter().map(move |mode| (index, mode)))
     }
 
-    /// A number for each row, by the position of the body among those of the step and the motion.
-    pub(super) fn by_row(&self, value: impl Fn(usize, Mode) -> f64) -> DVector<f64> {
-        DVector::from_iterator(self.n_rows(), self.rows().map(|(index, mode)| value(index, mode)))
+    /// A number for each row, by the position of the body among those of the step and the motion, and of each coordinate.
+    pub(super) fn by_row(
+        &self,
+        value: impl Fn(usize, Mode) -> f64,
+        of_coordinate: impl Fn(usize) -> f64,
+    ) -> DVector<f64> {
+        let rigid = self.rows().map(|(index, mode)| value(index, mode));
+        let coordinates = (0..self.n_rows() - self.n_rigid_rows()).map(of_coordinate);
+        DVector::from_vec(rigid.chain(coordinates).collect())
+    }
+
+    /// Rates of all coordinates.
+    pub(super) fn rates<'b>(&self, velocity: &'b DVector<f64>) -> &'b [f64] {
+        &velocity.as_slice()[self.n_rigid_rows()..]
+    }
+
+    /// Coordinates that rates lead to, before their ends go with the bodies these are attached to.
+    pub(super) fn coordinates(&self, velocity: &DVector<f64>) -> Vec<f64> {
+        let Some(elastic) = self.elastic else { return Vec::new() };
+        let levels = elastic.unmoved.iter().zip(self.rates(velocity));
+        levels.map(|(unmoved, rate)| unmoved + self.coefficient * rate).collect()
+    }
+
+    /// Where velocities lead; `None` where a body has no shape there.
+    pub(super) fn place(&self, velocity: &DVector<f64>) -> Option<Placed> {
+        let mut poses = self.poses(velocity);
+        let mut coordinates = self.coordinates(velocity);
+        let gaps = match self.elastic {
+            Some(elastic) => Some(elastic.bodies.place(&mut poses, &mut coordinates)?),
+            None => None,
+        };
+        Some(Placed { poses, coordinates, own_gaps: gaps })
+    }
+
+    /// The part of a change of velocities, at most 1, within which no body can get to the far side of another.
+    pub(super) fn max_step_fraction(&self, from: &Placed, velocity: &DVector<f64>) -> f64 {
+        let (gaps, full) = (from.gaps(self.gaps), self.poses(velocity));
+        let Some(elastic) = self.elastic else {
+            return gaps.max_step_fraction(&from.poses, &full);
+        };
+        let bodies = elastic.bodies;
+        let mut bounds = gaps.displacement_bounds(&from.poses, &full);
+        let own = bodies.displacement_bounds(&from.coordinates, &self.coordinates(velocity));
+        for ((bound, own), range) in bounds.iter_mut().zip(own).zip(bodies.ranges()) {
+            *bound = if range.is_empty() { *bound } else { own };
+        }
+        gaps.max_part_of(&from.poses, &bounds)
     }
 
     /// Components of one of the bodies, zero in motions that have no row.
@@ -108,7 +164,7 @@ impl ContactStep<'_> {
     }
 
     /// Rows of the motions of both sides of a pair.
-    pub(super) fn rows_of(&self, pair: &ContactPair) -> [Option<usize>; 12] {
+    fn rows_of(&self, pair: &ContactPair) -> [Option<usize>; 12] {
         let index = |body: usize| self.bodies.iter().position(|known| *known == body);
         let second = match pair.partner {
             Partner::Body(other) => index(other),
@@ -121,6 +177,34 @@ impl ContactStep<'_> {
         })
     }
 
+    /// The same where a side moves with a section of a body with coordinates.
+    fn rows_with_sections(&self, pair: &ContactPair) -> Vec<RowOfPair> {
+        let Some(elastic) = self.elastic else { return Vec::new() };
+        let partner = match pair.partner {
+            Partner::Body(other) => Some(other),
+            Partner::Wall(_) => None,
+        };
+        let mut found = Vec::new();
+        let rigid = self.rows_of(pair);
+        for (side, body) in [Some(pair.body), partner].into_iter().enumerate() {
+            let Some(body) = body else { continue };
+            let Some(section) = &pair.sections[side] else {
+                for entry in 6 * side..6 * side + 6 {
+                    let unit = PairVector::ith(entry, 1.0);
+                    found.extend(rigid[entry].map(|row| RowOfPair { row, weights: unit }));
+                }
+                continue;
+            };
+            let first = self.n_rigid_rows() + elastic.bodies.ranges()[body].start + section.first;
+            for (i, column) in section.weights.column_iter().enumerate() {
+                let mut weights = PairVector::zeros();
+                weights.fixed_rows_mut::<6>(6 * side).copy_from(&column);
+                found.push(RowOfPair { row: first + i, weights });
+            }
+        }
+        found
+    }
+
     /// Gives the entries of a vector over both sides of a pair to the rows they belong to.
     pub(super) fn scatter(
         &self,
@@ -128,6 +212,12 @@ impl ContactStep<'_> {
         entries: &PairVector,
         mut add: impl FnMut(usize, f64),
     ) {
+        if pair.moves_by_sections() {
+            for RowOfPair { row, weights } in self.rows_with_sections(pair) {
+                add(row, weights.dot(entries));
+            }
+            return;
+        }
         for (row, entry) in self.rows_of(pair).into_iter().zip(entries) {
             if let Some(row) = row {
                 add(row, *entry);
@@ -142,6 +232,16 @@ impl ContactStep<'_> {
         pair: &ContactPair,
         block: &PairMatrix,
     ) {
+        if pair.moves_by_sections() {
+            let rows = self.rows_with_sections(pair);
+            for RowOfPair { row, weights } in &rows {
+                let of_row = block.tr_mul(weights);
+                for RowOfPair { row: column, weights: by } in &rows {
+                    matrix[(*row, *column)] += of_row.dot(by);
+                }
+            }
+            return;
+        }
         let rows = self.rows_of(pair);
         for (i, row) in rows.into_iter().enumerate() {
             for (j, column) in rows.into_iter().enumerate() {
@@ -166,11 +266,20 @@ impl ContactStep<'_> {
 
     /// Lengths of all rows.
     pub(super) fn lengths(&self) -> DVector<f64> {
-        self.by_row(|index, mode| self.length(index, mode))
+        let of_coordinate =
+            |at: usize| self.elastic.map_or(1.0, |elastic| elastic.bodies.lengths()[at]);
+        self.by_row(|index, mode| self.length(index, mode), of_coordinate)
     }
 
     /// Largest displacement of a point of a body by a change of velocities (m), by component.
     pub(super) fn size(&self, step: &DVector<f64>) -> f64 {
+        if self.elastic.is_some() {
+            let sizes = step.component_mul(&self.lengths()).map(f64::abs);
+            // Not a number where one of them is not
+            let larger =
+                |most: f64, one: &f64| if *one > most || one.is_nan() { *one } else { most };
+            return self.coefficient * sizes.iter().fold(0.0, larger);
+        }
         self.coefficient * self.gaps.largest_displacement(self.bodies, self.modes, step)
     }
 }

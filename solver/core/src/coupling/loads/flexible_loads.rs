@@ -24,6 +24,8 @@ pub struct FlexibleStates<'a> {
     pub poses: &'a [Pose],
     /// Loads of the fluid on the bodies.
     pub loads: &'a [BodyLoads],
+    /// Loads of contact on the bodies.
+    pub contact: &'a [Wrench],
 }
 
 /// A body with coordinates at one time.
@@ -98,7 +100,10 @@ fn outer_load<const D: usize>(
 ) -> OuterLoad {
     let rigid = &problem.bodies[body];
     let frame = &rigid.pose;
-    let Wrench { force, torque } = now.loads[body].load;
+    let Wrench { force, torque } = match &now.contact[body] {
+        contact if *contact == Wrench::default() => now.loads[body].load,
+        contact => now.loads[body].load + *contact,
+    };
     let external = rigid.external(now.time, &now.poses[body]).fixed_rows::<3>(0).into_owned();
     let center = weighted(&at.flexible.center_weights(), at.coordinates);
     OuterLoad {

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::super::error::SolveError;
+use super::super::flexible_equation::FlexibleEquation;
 use super::rate_response::{CoordinateEquations, Factorised, RateResponse};
 use super::{Configuration, FluidSystem};
 use crate::timing::Timing;
@@ -23,6 +24,16 @@ impl<const D: usize> FluidSystem<D> {
     /// Has the next system take the derivatives of the equations of coordinates again.
     pub fn renew_tangents(&mut self) {
         self.rate_response = RateResponse::default();
+    }
+
+    /// The forces of coordinates beyond the derivatives of them that are in the matrix, from these rates of all coordinates on.
+    #[must_use]
+    pub fn forces_beyond(&self, equations: &[FlexibleEquation], rates: &[f64]) -> ForcesBeyond {
+        ForcesBeyond {
+            equations: equations.to_vec(),
+            tangents: self.rate_response.tangents().to_vec(),
+            from: rates.to_vec(),
+        }
     }
 
     /// Gives free unknowns, after the change by a linear system, what the equations of coordinates ask for beyond that.
@@ -81,5 +92,42 @@ impl<const D: usize> FluidSystem<D> {
         });
         self.rate_response.factorised = Some(Factorised { inverse, derivatives, source });
         Ok(())
+    }
+}
+
+/// What the equations of coordinates have beyond their linear part in a matrix, as functions of the rates of all coordinates.
+#[derive(Debug, Clone)]
+pub struct ForcesBeyond {
+    equations: Vec<FlexibleEquation>,
+    /// Their derivatives in the matrix, body by body.
+    tangents: Vec<DMatrix<f64>>,
+    /// The rates at which they are in balance.
+    from: Vec<f64>,
+}
+
+impl ForcesBeyond {
+    /// The forces at these rates, against them.
+    #[must_use]
+    pub fn forces(&self, rates: &[f64]) -> DVector<f64> {
+        let mut forces = DVector::zeros(rates.len());
+        for (equation, tangent) in self.equations.iter().zip(&self.tangents) {
+            let own = equation.first..equation.first + tangent.nrows();
+            let change = own.clone().map(|at| rates[at] - self.from[at]);
+            let linear = tangent * DVector::from_vec(change.collect());
+            let lack = equation.residual(rates) - equation.residual(&self.from) - linear;
+            forces.rows_mut(own.start, own.len()).copy_from(&lack);
+        }
+        forces
+    }
+
+    /// Their derivatives by the rates.
+    #[must_use]
+    pub fn tangent(&self, rates: &[f64]) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(rates.len(), rates.len());
+        for (equation, tangent) in self.equations.iter().zip(&self.tangents) {
+            let (first, n) = (equation.first, tangent.nrows());
+            all.view_mut((first, first), (n, n)).copy_from(&(equation.tangent(rates) - tangent));
+        }
+        all
     }
 }

@@ -15,7 +15,8 @@ use crate::timing::Timing;
 impl<const D: usize> FluidSystem<D> {
     /// Velocities (m/s, rad/s) of some bodies by unit loads in each of their rigid motions, with the
     /// matrix last assembled: n m x n m for n bodies with m motions, zero for motions that are given. Where
-    /// each unknown takes iterations it is zero, too, for turns of bodies that do not need them.
+    /// each unknown takes iterations it is zero, too, for turns of bodies that do not need them. If `with_coordinates`, rates
+    /// of the coordinates of all bodies, by unit loads on these, follow.
     ///
     /// # Errors
     /// When the matrix is singular.
@@ -23,9 +24,14 @@ impl<const D: usize> FluidSystem<D> {
         &mut self,
         constraints: &AffineConstraints,
         bodies: &[LoadedBody],
+        with_coordinates: bool,
         timing: &mut Timing,
     ) -> Result<DMatrix<f64>, SolveError> {
-        let rows = self.rows_of(constraints, bodies);
+        let mut rows = self.rows_of(constraints, bodies);
+        if with_coordinates {
+            let rates = (0..self.layout.n_coordinates).map(|at| self.layout.rate(at));
+            rows.extend(rates.map(|raw| constraints.row(raw)));
+        }
         let Masters { unknowns, weights } = Masters::of(&rows);
         let inverse = self.linear.inverse_of(&unknowns, timing)?;
         // Velocities by loads on the masters, one column each
@@ -117,26 +123,31 @@ impl<const D: usize> FluidSystem<D> {
         constrained
     }
 
-    /// Adds to a solution what further loads (N, N m) on some bodies change, with the matrix last
-    /// assembled. Where the solution takes iterations, these leave `reduction` of the loads, by default as much as
-    /// those of the flow.
+    /// Adds to a solution what further loads (N, N m) on some bodies, and such on the coordinates of all bodies if there are
+    /// any, change, with the matrix last assembled. Where the solution takes iterations, these leave `reduction` of the
+    /// loads, by default as much as those of the flow.
     ///
     /// # Errors
     /// When the matrix is singular.
     pub fn apply_body_loads(
         &mut self,
         constraints: &AffineConstraints,
-        loads: &[BodyLoad],
+        AddedLoads { on_bodies, on_coordinates }: AddedLoads<'_>,
         reduction: Option<f64>,
         solution: &mut Solution<D>,
         timing: &mut Timing,
     ) -> Result<(), SolveError> {
         let mut change = vec![0.0; self.n_unknowns];
-        for BodyLoad { body, load } in loads {
+        for BodyLoad { body, load } in on_bodies {
             for (position, mode) in self.modes.iter().enumerate() {
                 for term in constraints.row(self.layout.rigid(*body, position)) {
                     change[term.unknown as usize] += term.weight * load[mode];
                 }
+            }
+        }
+        for (coordinate, load) in on_coordinates.iter().enumerate() {
+            for term in constraints.row(self.layout.rate(coordinate)) {
+                change[term.unknown as usize] += term.weight * load;
             }
         }
         self.linear.solve(&mut change, reduction, timing)?;
@@ -155,6 +166,15 @@ impl<const D: usize> FluidSystem<D> {
         *solution = self.centered(next, &mean);
         Ok(())
     }
+}
+
+/// Further loads on bodies in a flow.
+#[derive(Debug, Clone, Copy)]
+pub struct AddedLoads<'a> {
+    /// On rigid bodies.
+    pub on_bodies: &'a [BodyLoad],
+    /// On the coordinates of all bodies that have some; none at all, or one for each.
+    pub on_coordinates: &'a [f64],
 }
 
 /// The unknowns that some motions depend on.

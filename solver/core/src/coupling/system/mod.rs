@@ -24,6 +24,8 @@ use std::convert::Infallible;
 
 use alewife_mesh::{Mesh, Point};
 
+pub use self::coordinates::ForcesBeyond;
+pub use self::mobility::AddedLoads;
 use self::nullspace::TranslationNullspace;
 use self::numbering::{Numbering, blocks_of_bodies, free_velocities};
 use self::rate_response::RateResponse;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use alewife_mesh::Spline;
 use nalgebra::{DVector, Vector3};
 
-use crate::structure::{Flexible, Weight};
+use crate::structure::{Flexible, SectionMotion, Weight};
 
 /// The points of an outline at rest, carried by coordinates.
 #[derive(Debug, Clone)]
@@ -34,6 +34,11 @@ impl CarriedOutline {
         Self { rest: Arc::clone(rest), body: Arc::clone(body), coordinates, center }
     }
 
+    /// The parameter after which the outline is where it began.
+    pub(in crate::gait) fn period(&self) -> f64 {
+        self.rest.knots().last().copied().unwrap_or_default()
+    }
+
     /// Where a point of the outline is at rest (m), by the parameter of the outline.
     pub(in crate::gait) fn rest_place(&self, parameter: f64) -> Vector3<f64> {
         let at = self.rest.evaluate(parameter)[0];
@@ -43,6 +48,12 @@ impl CarriedOutline {
     /// Where the point at a place at rest (m) is, seen from the centre.
     pub(in crate::gait) fn place(&self, rest: &Vector3<f64>) -> Vector3<f64> {
         self.body.place(&self.coordinates, rest) - self.center
+    }
+
+    /// How the section moves that the point at a place at rest (m) is on, seen from the centre.
+    pub(in crate::gait) fn section(&self, rest: &Vector3<f64>) -> Option<SectionMotion> {
+        let section = self.body.section(&self.coordinates, rest)?;
+        Some(SectionMotion { place: section.place - self.center, ..section })
     }
 
     /// The velocity there by those of the body.

@@ -102,6 +102,7 @@ pub(in crate::run) fn flexible_states<'a, const D: usize>(
         accelerations: &state.shapes.accelerations,
         poses: &state.poses,
         loads,
+        contact: &state.contact.wrenches,
     }
 }
 

@@ -7,15 +7,16 @@ use alewife_mesh::{
     BoundaryId, BoundaryKind, GapQuery, Mesh, NodeId, Outline, PlacedShape, Point, Shape,
     estimate_cells, generate_wrapped,
 };
-use nalgebra::Vector3;
+use nalgebra::{SMatrix, Vector3};
 
 use super::case::{PlanarCase, move_into};
 use crate::body::{Pose, on_mesh};
-use crate::contact::{Gaps, PlanarGaps};
+use crate::contact::{COORDINATES_OF_SECTION, Gaps, PlanarGaps, Section, Sections};
 use crate::coupling::BodyShapes;
 use crate::gait::{DeformedOutline, WavingSheet};
 use crate::motion::{Fresh, RigidMove, needs_remesh};
 use crate::motion::{Meshed, MostCells, PosesByShift, RemeshError, RestPlace, Scene};
+use crate::structure::{SectionMotion, SectionWeight};
 
 /// Domain and bodies as they were meshed.
 #[derive(Debug)]
@@ -30,6 +31,31 @@ pub(in crate::run) struct PlanarScene {
     fresh: Fresh,
     surroundings: GapQuery,
     gaps: PlanarGaps,
+}
+
+/// The sections of a body whose outline follows coordinates.
+#[derive(Debug)]
+struct CarriedSections {
+    outline: Outline,
+    deformed: DeformedOutline,
+}
+
+impl Sections for CarriedSections {
+    fn at(&self, point: &Vector3<f64>) -> Option<Section> {
+        let parameter = self.outline.parameter_of(point.xy());
+        let SectionMotion { place, weights } = self.deformed.section(parameter)?;
+        let first = weights.iter().map(|at| at.coordinate).min()?;
+        let mut section = Section { center: place, first, weights: SMatrix::zeros() };
+        for SectionWeight { coordinate, linear, angular } in weights {
+            let column = coordinate - first;
+            if column >= COORDINATES_OF_SECTION {
+                return None;
+            }
+            section.weights.fixed_view_mut::<3, 1>(0, column).copy_from(&linear);
+            section.weights.fixed_view_mut::<3, 1>(3, column).copy_from(&angular);
+        }
+        Some(section)
+    }
 }
 
 /// A point of the outline of a body that deforms.
@@ -131,8 +157,18 @@ impl Scene<2> for PlanarScene {
     fn deformed_gaps(&self, shapes: &BodyShapes) -> Option<Box<dyn Gaps>> {
         let mut gaps: Option<PlanarGaps> = None;
         for body in 0..self.shapes.len() {
-            if let Some(outline) = shapes.outline(body) {
-                gaps.get_or_insert_with(|| self.gaps.clone()).deform_outline(body, outline.clone());
+            let (Some(outline), Some(deformed)) = (shapes.outline(body), shapes.deformed(body))
+            else {
+                continue;
+            };
+            let gaps = gaps.get_or_insert_with(|| self.gaps.clone());
+            let outline = outline.clone();
+            if deformed.follows_coordinates() {
+                let sections =
+                    CarriedSections { outline: outline.clone(), deformed: deformed.clone() };
+                gaps.bend_outline(body, outline, Arc::new(sections));
+            } else {
+                gaps.deform_outline(body, outline);
             }
         }
         gaps.map(|gaps| -> Box<dyn Gaps> { Box::new(gaps) })

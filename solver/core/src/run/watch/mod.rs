@@ -10,6 +10,7 @@ mod leaving;
 mod not_finite;
 mod pace;
 mod resolution;
+mod self_contact;
 mod sound_state;
 mod soundness;
 

@@ -4,6 +4,6 @@ mod contact_energy;
 mod error_estimate;
 mod step_errors;
 
-pub(super) use contact_energy::acceleration;
+pub(super) use contact_energy::{StepEnd, acceleration};
 pub(super) use error_estimate::{local_error, pose_errors};
 pub use step_errors::error_of_second_difference;

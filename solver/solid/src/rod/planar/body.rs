@@ -4,12 +4,13 @@ use nalgebra::{DMatrix, DVector, Vector2, Vector3};
 
 use super::ends::EndPose;
 use super::planar_rod::PlanarRod;
-use super::surface::{SectionPoint, SurfaceRows};
+use super::surface::{SectionPoint, SectionRows, SurfaceRows};
 use crate::rod::center::center_weights;
 use crate::rod::loads::LineForce;
 use crate::rod::supports::Supports;
 use crate::structure::{
-    BaseMotion, Bend, Flexible, Held, InnerPower, Load, Structure, Tangents, Weight,
+    BaseMotion, Bend, Flexible, Held, InnerPower, Load, SectionMotion, SectionWeight, Structure,
+    Tangents, Weight,
 };
 
 /// A planar rod as a body in a flow. Its material points are named by their places where the rod is straight.
@@ -130,6 +131,25 @@ impl Flexible for PlanarRodBody {
             weight: rows.weights.column(i).push(0.0),
         };
         (0..rows.weights.ncols()).map(weight).collect()
+    }
+
+    fn section(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Option<SectionMotion> {
+        let along = self.section_point(rest).along;
+        let SectionRows { place, first, weights } = self.rod.section(coordinates, along);
+        let weight = |i: usize| SectionWeight {
+            coordinate: first + i,
+            linear: Vector3::new(weights[(0, i)], weights[(1, i)], 0.0),
+            angular: Vector3::z() * weights[(2, i)],
+        };
+        let weights = (0..weights.ncols()).map(weight).collect();
+        Some(SectionMotion { place: place.push(0.0), weights })
+    }
+
+    /// Directions count by the element they are at an end of.
+    fn length_of(&self, coordinate: usize) -> f64 {
+        let knots = self.rod.knots();
+        let element = (coordinate / 4).min(knots.len() - 2);
+        if coordinate % 4 < 2 { 1.0 } else { knots[element + 1] - knots[element] }
     }
 
     fn center_weights(&self) -> Vec<Weight> {

@@ -8,4 +8,4 @@ mod surface;
 pub use body::PlanarRodBody;
 pub use ends::{EndLoad, EndPose};
 pub use planar_rod::PlanarRod;
-pub use surface::{RoundedStrip, SectionPoint, SurfaceRows};
+pub use surface::{RoundedStrip, SectionPoint, SectionRows, SurfaceRows};

@@ -35,7 +35,41 @@ impl SurfaceRows {
     }
 }
 
+/// Place of a section of a rod, and how its velocities follow from those of the rod.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionRows {
+    /// Where the centreline is (m).
+    pub place: Vector2<f64>,
+    /// First of the coordinates that it depends on.
+    pub first: usize,
+    /// Weights on their velocities, of velocity along x and y and of angular velocity.
+    pub weights: SMatrix<f64, 3, COORDINATES>,
+}
+
 impl PlanarRod {
+    /// A section at a distance along the rod (m): its points move with it as those of a rigid body.
+    #[must_use]
+    pub fn section(&self, coordinates: &DVector<f64>, along: f64) -> SectionRows {
+        let at = self.locate(along);
+        let basis = Hermite::at(at.xi, at.length);
+        let of_element = self.of_element(coordinates, at.element);
+        let (mut place, mut tangent) = (Vector2::zeros(), Vector2::zeros());
+        for knot in 0..4 {
+            let of_knot = of_element.fixed_rows::<2>(2 * knot);
+            place += of_knot * basis.place[knot];
+            tangent += of_knot * basis.first[knot];
+        }
+        let [nx, ny] = (Vector2::new(-tangent.y, tangent.x) / tangent.norm_squared()).into();
+        let mut weights = SMatrix::zeros();
+        for knot in 0..4 {
+            weights[(0, 2 * knot)] = basis.place[knot];
+            weights[(1, 2 * knot + 1)] = basis.place[knot];
+            weights[(2, 2 * knot)] = basis.first[knot] * nx;
+            weights[(2, 2 * knot + 1)] = basis.first[knot] * ny;
+        }
+        SectionRows { place, first: at.element * Self::STRIDE, weights }
+    }
+
     /// A point of a section, r + offset n with the unit normal n.
     #[must_use]
     pub fn surface(&self, coordinates: &DVector<f64>, point: SectionPoint) -> SurfaceRows {

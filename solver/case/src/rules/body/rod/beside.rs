@@ -82,13 +82,6 @@ fn others(findings: &mut Findings<'_>, key: &str, body: &Body) {
             "write geometry = \"planar\", or leave `rod` out",
         );
     }
-    if case.contact.is_some() {
-        findings.error(
-            "contact",
-            format!("\"{name}\" is a rod, and rods are in no contact yet"),
-            "leave [contact] out, and keep bodies and walls apart",
-        );
-    }
     if !findings.model().joints.is_empty() {
         findings.error(
             &format!("{key}.rod"),

@@ -294,7 +294,6 @@ name = 'b'
         };
         let cell = changed(SIDES, CELL);
         for (text, key) in [
-            (format!("{whole}[contact.quadratic]\nrange = 0.1\nepsilon = 1e-3\n"), "contact"),
             (format!("{whole}{joint}\n"), "body.1.rod"),
             (changed("step = 0.1,", "step = 0.1, scheme = 'rk3',"), "time.unsteady.scheme"),
             (changed("'planar'", "'axisymmetric'"), "body.1.rod"),
@@ -303,6 +302,8 @@ name = 'b'
             let found = of_case(&text, Severity::Error);
             assert!(found.contains(&key.to_owned()), "{found:?} of {text}");
         }
+        let touching = format!("{whole}[contact.quadratic]\nrange = 0.01\nepsilon = 1e-6\n");
+        assert_eq!(of_case(&touching, Severity::Error), Vec::<String>::new());
         // The other body holds the fluid
         assert!(!of_case(&cell, Severity::Error).contains(&"body.1.rod".to_owned()));
     }
