@@ -102,7 +102,7 @@ impl<const D: usize> Simulation<D> {
         let load = |body: &RigidBody| {
             let width = body.volume.mass.powf(1.0 / D as f64);
             let friction = problem.viscosity.at_rate(speed / width) * speed / width;
-            let area = width.powi(D as i32 - 1);
+            let area = width.powf(D as f64 - 1.0);
             time * (area * (problem.density * speed * speed + friction)).powi(2)
         };
         let loads = problem.bodies.iter().map(load).collect();

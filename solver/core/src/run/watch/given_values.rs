@@ -77,7 +77,7 @@ impl Given<'_> {
     /// Where it is taken.
     fn places<const D: usize>(&self, mesh: &Mesh<D>) -> Vec<Point<D>> {
         match self.at {
-            Where::AtNodes => mesh.nodes.iter().copied().collect(),
+            Where::AtNodes => mesh.nodes.to_vec(),
             Where::Within => {
                 let middle = |cell| {
                     let corners = mesh.cell_vertices(cell).iter().map(|node| mesh.nodes[*node]);
