@@ -1,5 +1,4 @@
 //! Searches by proposals: each method finds a minimum within bounds, and goes on with the same bits.
-#![expect(clippy::unwrap_used, reason = "a test that cannot begin its search has failed")]
 
 use std::path::Path;
 

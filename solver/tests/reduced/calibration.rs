@@ -106,7 +106,10 @@ fn the_file_is_taken_by_its_case_and_by_no_other() {
     assert_eq!(taken(&changed)[2], taken(&file)[2]);
     let set =
         format!("reduced.calibrated.file='{}'", place.path().join("calibrated.toml").display());
-    assert_eq!(taken(&Case::read("eel-calibration", &[set.clone()]).unwrap()), taken(&file));
+    assert_eq!(
+        taken(&Case::read("eel-calibration", std::slice::from_ref(&set)).unwrap()),
+        taken(&file)
+    );
     // Also over what a body has of its own, and over an older file in a case as it was run
     let body = "extends = 'body.toml'\nreduced.calibrated.file = 'calibrated.toml'\n";
     let older = file.case().to_toml().unwrap();
@@ -119,7 +122,7 @@ fn the_file_is_taken_by_its_case_and_by_no_other() {
     let own_body = "extends = 'eel-calibration'\nreduced.body.eel-2.added_mass = 3.0\n";
     std::fs::write(place.path().join("own-body.toml"), own_body).unwrap();
     let path = place.path().join("own-body.toml").display().to_string();
-    let changed = Case::read(&path, &[set.clone()]).unwrap();
+    let changed = Case::read(&path, std::slice::from_ref(&set)).unwrap();
     assert_eq!(changed.case().reduced_model().coefficients_of("eel-2"), taken(&file));
     // What is written beside its name is refused
     for (beside, key) in [
