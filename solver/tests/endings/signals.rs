@@ -40,7 +40,6 @@ fn commands_that_a_signal_ends_say_what_is_left() {
     std::fs::write(at.join("bar.toml"), BAR.replace("frames = 8", "frames = 100000")).unwrap();
     for (signal, arguments, left) in [
         ("TERM", vec!["check", "fine.toml", "--threads", "1"], "begins again when it is called"),
-        ("INT", vec!["mesh", "fine.toml"], "begins again when it is called"),
         (
             "TERM",
             vec!["run", "robot-eel", "--fidelity", "reduced", "--set", "time.unsteady.end=1e6"],
