@@ -169,8 +169,8 @@ fn assert_momentum(geometry: &str, bodies: [&str; 2]) {
     assert!(change < 1e-7, "{geometry}: {change:e}");
 }
 
-/// What contact gives to one body it takes from the other. In fluid that matters the balance is as good as the cells: that of
-/// the convection of the fluid is 1e-4 where they are coarse.
+/// What contact gives to one body it takes from the other. In fluid that matters the balance of all is 1e-4 over such a run,
+/// in free flight after contact; which part of the fluid's equations does it is not known.
 #[test]
 fn spheres_that_meet_on_the_axis_keep_their_momentum_over_a_run() {
     let a = moving("a", "sphere", [-1.1, 0.0], 1000.0, 1.0);
