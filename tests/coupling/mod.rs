@@ -1,6 +1,5 @@
 //! Fluid and bodies in one system: loads, free motion, reciprocity, energy, frames, threads.
 
-mod backflow;
 mod blow_up;
 mod driven_sides;
 mod failure;

@@ -1,5 +1,7 @@
 //! Loads and fluxes of sides against exact flows, against bodies, and by conservation.
 
+mod backflow;
+
 use alewife_core::case::Case;
 use alewife_core::run::{RunSummary, simulate};
 use tests::cases::{case, last, run};
