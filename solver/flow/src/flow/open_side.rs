@@ -201,7 +201,7 @@ impl<const D: usize> Entering<D> {
         let flux = at.value(nodes, terms.convecting_velocity).dot(&at.normal_ds);
         let density = terms.density * side.backflow;
         let velocity = at.value(nodes, fields.velocity);
-        (flux < 0.0).then(|| Self { velocity, mass: density * flux, density })
+        (flux < 0.0).then_some(Self { velocity, mass: density * flux, density })
     }
 
     fn add_to_matrix(
