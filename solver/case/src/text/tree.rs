@@ -253,9 +253,10 @@ impl TomlNode {
             let so_far = steps[..depth].join(".");
             let fresh =
                 Self { key: value.key.clone(), origin: value.origin.clone(), value: empty() };
-            // One alternative gives way to another, bare or with a table.
+            // One alternative gives way to another, bare or with a table; a list of that name is none.
+            let is_list = matches!(here.value, TomlValue::Array(_));
             let has_it = here.table().is_some_and(|entries| entries.contains_key(*step));
-            if is_choice(above, &so_far) && !has_it {
+            if is_choice(above, &so_far) && !has_it && !is_list {
                 here.value = empty();
             }
             here = match &mut here.value {
@@ -382,5 +383,15 @@ mod tests {
         let error = set(&mut root, "modes.2", "3").unwrap_err();
         assert!(error.help.contains("has 2 of them"), "{error:?}");
         assert!(set(&mut root, "modes.1.x", "3").is_err());
+    }
+
+    #[test]
+    fn a_list_with_the_name_of_a_choice_keeps_its_entries() {
+        let mut root = tree("[[solid]]\nhold = [{ axes = ['y'] }, { axes = ['x'] }]");
+        let value = TomlNode::at_no_place(TomlValue::String("z".to_owned()));
+        root.set("solid.0.hold.1.axes.0", value).expect("there is such an entry");
+        let axis = |path: &str| root.get(path).and_then(TomlNode::text);
+        assert_eq!(axis("solid.0.hold.0.axes.0"), Some("y"));
+        assert_eq!(axis("solid.0.hold.1.axes.0"), Some("z"));
     }
 }
