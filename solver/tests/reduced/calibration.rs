@@ -255,6 +255,11 @@ from = [{ csv = 'rows.csv', time = 't', columns = { 'log.x' = 'x' } }]
     assert_eq!(told.location.unwrap().line, 13);
     let file = written(place.path(), "moves.toml", &text.replace("FIT", "tangential_linear"));
     let result = calibrate(&file).unwrap();
+    // Paths are relative to the file they are written in
+    let inner = place.path().join("inner");
+    std::fs::create_dir(&inner).unwrap();
+    let extended = written(&inner, "extended.toml", "extends = '../moves.toml'\ntitle = 'u'\n");
+    assert_eq!(calibrate(&extended).unwrap().fit.parameters, result.fit.parameters);
     assert!(result.remark.is_none() && result.fit.cost < result.fit.start_cost);
     // One of two
     let both = text.replace("FIT", "tangential_linear', 'normal_quadratic");

@@ -25,7 +25,7 @@ use alewife_reduced::tree::{Fit, Residuals, TreeError, fit};
 
 use self::both::Both;
 use self::loads::Loads;
-use self::record::{Origin, Record, records};
+use self::record::{Origin, Record, records, written_in};
 use self::search::{Desk, Searched, directory_of, searched};
 use self::sought::{Sought, with_found};
 use self::tracks::Swims;
@@ -151,7 +151,7 @@ pub fn calibrate_in(
     let fitted: Vec<&Record> = records.iter().filter(|one| !one.is_held_out).collect();
     let desk = &mut Desk {
         directory: directory.map(Path::to_path_buf),
-        case_directory: directory_of(&file.file),
+        case_directory: directory_of(&written_in(file, "calibration.search.command")),
         name: search_name(file, &records),
         told,
     };

@@ -4,11 +4,15 @@ use std::path::{Path, PathBuf};
 
 use super::error::CalibrateError;
 use super::file;
+use super::search::directory_of;
 use crate::case::{
     CalibrationSpec, Case, CaseFile, Model, RecordSpec, ReducedSpec, TimeSettings, check_reduced,
 };
 use crate::reduced::build::Reduced;
 use crate::run::Series;
+
+/// Where what the command line sets is written.
+const SETTING: &str = "--set";
 
 /// Where a run or record is from.
 #[derive(Debug, Clone)]
@@ -88,13 +92,15 @@ pub fn records(
     spec: &CalibrationSpec,
     reduced: &ReducedSpec,
 ) -> Result<Vec<Record>, CalibrateError> {
-    let directory = Path::new(&file.file).parent().map_or_else(PathBuf::new, Path::to_path_buf);
     let mut records = Vec::new();
     for (number, from) in spec.from.iter().enumerate() {
         let reader = Reader { file, spec, reduced, number, from };
         match (&from.run, &from.csv) {
-            (Some(run), _) => reader.runs(&directory.join(run), run, &mut records)?,
-            (None, Some(csv)) => records.push(reader.rows(&directory, csv)?),
+            (Some(run), _) => {
+                let written = written_in(file, &format!("calibration.from.{number}.run"));
+                reader.runs(&directory_of(&written).join(run), run, &mut records)?;
+            }
+            (None, Some(csv)) => records.push(reader.rows(csv)?),
             (None, None) => return Err(reader.wrong("write one of `run` and `csv`".to_owned())),
         }
     }
@@ -106,12 +112,18 @@ pub fn records(
 pub fn check_records(file: &CaseFile) -> Option<CalibrateError> {
     let spec = file.case().calibration.as_ref()?;
     let reduced = &file.case().reduced_model();
-    let directory = Path::new(&file.file).parent().map_or_else(PathBuf::new, Path::to_path_buf);
     let of_file = |(number, from)| {
         let reader = Reader { file, spec, reduced, number, from };
-        from.csv.as_ref().and_then(|csv| reader.rows(&directory, csv).err())
+        from.csv.as_ref().and_then(|csv| reader.rows(csv).err())
     };
     spec.from.iter().enumerate().find_map(of_file)
+}
+
+/// The file that a key is written in, which paths are relative to: that of the case which is extended, if it is there. What
+/// the command line sets is as if the case had it.
+pub(super) fn written_in(file: &CaseFile, key: &str) -> String {
+    let written = file.location(key).map(|at| at.file).filter(|name| name != SETTING);
+    written.unwrap_or_else(|| file.file.clone())
 }
 
 /// What an entry of `from` is read with.
@@ -194,7 +206,7 @@ impl Reader<'_> {
     }
 
     /// Rows of a CSV file.
-    fn rows(&self, directory: &Path, name: &str) -> Result<Record, CalibrateError> {
+    fn rows(&self, name: &str) -> Result<Record, CalibrateError> {
         let read = if self.from.set.is_empty() {
             self.file.clone()
         } else {
@@ -208,10 +220,11 @@ impl Reader<'_> {
             })?
         };
         let model = self.model(&read)?;
-        let bytes = match crate::case::library::file_beside(&self.file.file, name) {
+        let written = written_in(self.file, &format!("calibration.from.{}.csv", self.number));
+        let bytes = match crate::case::library::file_beside(&written, name) {
             Some(bytes) => bytes.to_vec(),
             None => {
-                let path = directory.join(name);
+                let path = directory_of(&written).join(name);
                 std::fs::read(&path)
                     .map_err(|error| self.wrong(format!("{}: {error}", path.display())))?
             }
