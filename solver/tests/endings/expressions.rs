@@ -60,6 +60,25 @@ fn expressions_of_all_kinds_are_refused_by_key_place_and_time() {
             "fluid.force.1",
             "step 0",
         ),
+        // Without a value anywhere
+        (
+            PLANE,
+            vec!["boundary.right={ pressure = { value = 'log(y - 9)' } }", "time={ steady = {} }"],
+            "boundary.right.pressure.value",
+            "NaN",
+        ),
+        (
+            PLANE,
+            vec!["fluid.force=['log(y - 9)', 0]", "time={ steady = {} }", stokes],
+            "fluid.force.0",
+            "NaN",
+        ),
+        (
+            SPACE,
+            vec!["fluid.force=['log(y - 9)', 0, 0]", "time={ steady = {} }", stokes],
+            "fluid.force.0",
+            "NaN",
+        ),
         (PLANE, vec!["initial.velocity=['sqrt(y)', 0]"], "initial.velocity.0", "t = 0"),
         (PLANE, vec![&initial], "scalar.0.initial", "t = 0"),
         (PLANE, vec![&source], "scalar.0.source", "t = 0.15"),

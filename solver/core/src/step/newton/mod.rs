@@ -230,7 +230,9 @@ pub(super) fn newton<const D: usize>(
         let relative = progress.relative(size, least);
         equations.on_iteration(iterations, relative);
         let scale = progress.scale();
-        let may_end = iterations >= SETTLED || !system.has_rounded_rates();
+        // The largest entry says nothing of those that are no numbers: a linear solution finds them
+        let is_finite = reduced.iter().all(|value| value.is_finite());
+        let may_end = is_finite && (iterations >= SETTLED || !system.has_rounded_rates());
         if may_end && progress.is_converged(relative) && system.meets_mean_velocity(at, &solution) {
             return Ok(Flow { solution, residual, iterations, scale });
         }
