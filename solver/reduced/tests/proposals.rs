@@ -1,7 +1,10 @@
 //! Searches by proposals: each method finds a minimum within bounds, and goes on with the same bits.
 
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
+use alewife_interrupt::{Request, hearing, is_requested};
 use alewife_reduced::search::{
     Bounded, Effort, Ended, External, HALVINGS, Journal, Method, Opened, Proposals, SearchError,
     propose,
@@ -40,6 +43,16 @@ struct Come {
 }
 
 fn sought(method: Method<'_>, most: usize, journal: Option<&Path>) -> Result<Come, SearchError> {
+    counting(method, most, journal, &mut || ())
+}
+
+/// The same, with something that is called at each evaluation.
+fn counting(
+    method: Method<'_>,
+    most: usize,
+    journal: Option<&Path>,
+    count: &mut dyn FnMut(),
+) -> Result<Come, SearchError> {
     let bounded = bounded();
     let mut n_made = 0;
     let mut evaluate = |values: &[f64]| {
@@ -47,7 +60,9 @@ fn sought(method: Method<'_>, most: usize, journal: Option<&Path>) -> Result<Com
             bounded.iter().zip(values).all(|(one, v)| (one.lower..=one.upper).contains(v));
         assert!(is_within, "{values:?}");
         n_made += 1;
-        valley(values)
+        count();
+        // A motion that is asked to end has no value; not each look is a question
+        if (0..100).any(|_| is_requested()) { f64::INFINITY } else { valley(values) }
     };
     let opened = journal.map(|path| Journal::open(path, "valley")).transpose()?;
     let (journal, known) =
@@ -175,4 +190,31 @@ fn the_line_search_can_be_left_out() {
     assert!(!accepted.is_empty() && accepted.iter().all(|part| *part >= 1.0), "{accepted:?}");
     let with = sought(Method::Random { seed: 3 }, 300, None).unwrap();
     assert!(with.n_accepted as f64 / with.n_proposals as f64 > accepted.len() as f64 / 299.0);
+}
+
+/// What was being evaluated when a search was asked to end is no part of it: that motion came to nothing.
+#[test]
+fn a_search_that_is_asked_to_end_goes_on_with_the_same_bits() {
+    for (name, ..) in methods() {
+        let method = || methods().into_iter().find(|one| one.0 == name).map(|one| one.1);
+        let method = || method().expect("it is one of them");
+        let place = tempfile::tempdir().expect("there is room");
+        let path = place.path().join("search.journal");
+        let whole = sought(method(), 40, None).expect("it is made");
+        for lasting in [1, 3, 17] {
+            let n = Arc::new(AtomicUsize::new(0));
+            let asked = Arc::clone(&n);
+            let request: Request = Arc::new(move || asked.load(Ordering::Relaxed) >= lasting);
+            let counted = Arc::clone(&n);
+            let mut count = || {
+                counted.fetch_add(1, Ordering::Relaxed);
+            };
+            let made = hearing(request, || counting(method(), 40, Some(&path), &mut count));
+            assert!(matches!(made.result, Err(SearchError::Stopped(_))), "{name}");
+            let text = std::fs::read_to_string(&path).expect("it has a journal");
+            assert!(!text.contains("inf"), "{name}: {text}");
+        }
+        let rest = sought(method(), 40, Some(&path)).expect("it goes on");
+        assert_eq!((rest.best, rest.n_proposals), (whole.best, whole.n_proposals), "{name}");
+    }
 }

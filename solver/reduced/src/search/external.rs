@@ -1,9 +1,11 @@
 //! `External`: a program that proposes points: it reads JSON and writes JSON, once for each point.
 
-use std::io::Write as _;
+use std::io::{Read as _, Write as _};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::time::Duration;
 
+use alewife_interrupt::check;
 use serde_json::{Map, Value, json};
 
 use super::proposals::{Proposal, Proposals};
@@ -11,6 +13,9 @@ use super::proposals::{Proposal, Proposals};
 /// What is accepted of a program.
 const ACCEPTED: &str =
     "one JSON object, { \"values\": { NAME: number, ... } }, with a finite number for each name";
+
+/// How often it is looked whether the program has ended, or is to.
+const LOOK_EVERY: Duration = Duration::from_millis(2);
 
 /// Characters of a bad answer that are shown.
 const SHOWN: usize = 200;
@@ -75,11 +80,29 @@ impl External {
             // A program that knows enough may close it before it has read all
             let _ = input.write_all(format!("{}\n", told(proposals)).as_bytes());
         }
-        let output = child.wait_with_output().map_err(failed)?;
-        if !output.status.success() {
-            return Err(format!("`{program}` ended with {}", output.status));
+        let reader = child.stdout.take().map(|mut output| {
+            std::thread::spawn(move || {
+                let mut all = Vec::new();
+                output.read_to_end(&mut all).map(|_| all)
+            })
+        });
+        let status = loop {
+            if let Some(status) = child.try_wait().map_err(failed)? {
+                break status;
+            }
+            if check().is_err() {
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err("it was asked to end".to_owned());
+            }
+            std::thread::sleep(LOOK_EVERY);
+        };
+        if !status.success() {
+            return Err(format!("`{program}` ended with {status}"));
         }
-        let text = String::from_utf8_lossy(&output.stdout);
+        let output = reader.map(std::thread::JoinHandle::join);
+        let output = output.and_then(Result::ok).transpose().map_err(failed)?.unwrap_or_default();
+        let text = String::from_utf8_lossy(&output);
         answered(proposals, text.trim()).map_err(|what| {
             let shown: String = text.trim().chars().take(SHOWN).collect();
             format!("`{program}` answered `{shown}`: {what}; accepted is {ACCEPTED}")

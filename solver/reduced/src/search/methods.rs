@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 use alewife_case::SplitMix64;
+use alewife_interrupt::check;
 use basin::{
     BoundedCmaEs, BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction,
     DenseMatrix, Executor, NelderMead, PopulationProgress, SimplexProgress,
@@ -82,7 +83,10 @@ fn by_others(proposals: &mut Proposals<'_>, ask: Ask<'_>) -> Option<Halt> {
         let known = proposals.known_next().map(<[f64]>::to_vec);
         let values = match known.map_or_else(|| ask(proposals), Ok) {
             Ok(values) => values,
-            Err(what) => return Some(Halt::Failed(what)),
+            Err(what) => {
+                let stopped = check().err();
+                return Some(stopped.map_or(Halt::Failed(what), |one| Halt::Error(one.into())));
+            }
         };
         if let Err(halt) = proposals.propose(&values) {
             return Some(halt);

@@ -1,5 +1,7 @@
 //! `Proposals`: points that a method proposes, each in a backtracking line search, in a journal.
 
+use alewife_interrupt::check;
+
 use super::{Bounded, Evaluated, Journal, SearchError};
 
 /// How often the way to a proposal is halved before it is given up, where nothing else is said.
@@ -183,6 +185,8 @@ impl<'a> Proposals<'a> {
             return Ok(objective);
         }
         let objective = (self.evaluate)(values);
+        // A motion that was asked to end has none, and is made again
+        check().map_err(|stopped| Halt::Error(stopped.into()))?;
         let objective = if objective.is_finite() { objective } else { f64::INFINITY };
         let (values, slopes) = (values.to_vec(), vec![0.0; values.len()]);
         if let Some(journal) = &mut self.journal {
