@@ -16,6 +16,9 @@ const POINTS: u32 = 240;
 const APART: f64 = 3.0;
 /// Gap over the thickness from which on a body is told to be near itself where there is no contact.
 const NEAR: f64 = 0.5;
+/// Distance of two points over that along the body below which it comes back to itself: neighbours along a straight one have
+/// 1, the ends of a half circle 2 / pi.
+const FOLDED: f64 = 0.5;
 
 /// A point of an outline.
 struct OnOutline {
@@ -97,7 +100,9 @@ fn nearest(points: &[OnOutline], apart: f64, limit: f64) -> Option<[&OnOutline; 
             .filter(move |other| (one.along - other.along).abs() > apart)
             .map(move |other| [one, other])
     });
-    let near = pairs.filter(|pair| gap(pair) < limit);
+    let is_folded =
+        |pair: &[&OnOutline; 2]| gap(pair) < FOLDED * (pair[0].along - pair[1].along).abs();
+    let near = pairs.filter(|pair| gap(pair) < limit && is_folded(pair));
     near.min_by(|one, other| gap(one).total_cmp(&gap(other)))
 }
 
