@@ -16,9 +16,14 @@ pub struct Member {
 ///
 /// # Errors
 /// With all that is wrong in any of them.
-pub fn all_members(names: &[String], only_quick: bool) -> Result<Vec<Member>, Failure> {
+pub fn all_members(
+    names: &[String],
+    only_quick: bool,
+    is_to_end: &dyn Fn() -> Result<(), Failure>,
+) -> Result<Vec<Member>, Failure> {
     let (mut members, mut failures) = (Vec::new(), Vec::new());
     for name in names {
+        is_to_end()?;
         match members_of(name, only_quick) {
             Ok(found) => {
                 for name in found {

@@ -94,17 +94,23 @@ pub struct Options {
 
 /// Runs cases and compares them with their references.
 pub fn validate(options: &Options) -> Result<Exit, Failure> {
+    let watch = SignalWatch::start()?;
+    // Reading does not look; a case is read in a moment, and all of them are in some seconds
+    let is_to_end = || match watch.has_come() {
+        true => Err(Failure::new(Exit::Stopped, "stopped by a signal before the first case")),
+        false => Ok(()),
+    };
     let names = if options.cases.is_empty() {
         library::list().iter().chain(library::soft()).map(|case| case.name.to_owned()).collect()
     } else {
         options.cases.clone()
     };
-    let Split { flows, mut searched } = split(&names, options.quick)?;
+    let Split { flows, mut searched } = split(&names, options.quick, &is_to_end)?;
     // A page has sections of runs, and kept runs are none of searches
     if options.report.is_some() || options.markdown || options.from.is_some() {
         searched.clear();
     }
-    let members = all_members(&flows, options.quick)?;
+    let members = all_members(&flows, options.quick, &is_to_end)?;
     let n_threads = threads::start(options.threads)?;
     // What runs warn of is in the status of those that are kept
     start_log(None, -1)?;
@@ -116,8 +122,7 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
         return Err(Failure::new(Exit::BadCase, nothing));
     }
     let file = options.report.as_ref().map(|path| ReportFile::open(path.as_deref())).transpose()?;
-    let work = options.work(n_threads)?;
-    let watch = work.watch.clone();
+    let work = options.work(n_threads, watch.clone());
     let Made { mut reports, mut end } = Validation { work, file }.make(&members);
     for one in &searched {
         if end.is_some() {
@@ -158,19 +163,19 @@ impl Options {
         })
     }
 
-    fn work(&self, n_threads: usize) -> Result<Work, Failure> {
+    fn work(&self, n_threads: usize, watch: SignalWatch) -> Work {
         let place = match (&self.out, &self.from) {
             (Some(out), _) => Place::Kept { out: out.clone(), by_any_program: self.any_program },
             (None, Some(from)) => Place::Read(from.clone()),
             (None, None) => Place::Memory,
         };
-        Ok(Work {
+        Work {
             place,
             with_sizes: self.uncertainty || self.report.is_some(),
             with_companions: self.uncertainty,
             n_threads,
-            watch: SignalWatch::start()?,
-        })
+            watch,
+        }
     }
 }
 

@@ -41,10 +41,15 @@ pub struct Split {
 /// Finds out which of these cases are soft, and which have an optimum with references.
 ///
 /// # Errors
-/// With all that is wrong in a case. One whose recorded file does not come with it, and is not there, is left out.
-pub fn split(names: &[String], only_quick: bool) -> Result<Split, Failure> {
+/// With all that is wrong in a case, and that of `is_to_end`, which is asked before each. One whose recorded file does not come with it, and is not there, is left out.
+pub fn split(
+    names: &[String],
+    only_quick: bool,
+    is_to_end: &dyn Fn() -> Result<(), Failure>,
+) -> Result<Split, Failure> {
     let mut split = Split { flows: Vec::new(), searched: Vec::new() };
     for name in names {
+        is_to_end()?;
         match SoftFile::read_if_soft(name, &[]) {
             Ok(Some(file)) if !only_quick => {
                 let variants = file.case.variant.clone();
