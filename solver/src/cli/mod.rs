@@ -166,7 +166,7 @@ impl Command {
             Self::Sweep(options) if options.runs() => None,
             Self::Validate(_) => None,
             Self::Calibrate(_) | Self::Optimise(_) | Self::Loop(_) => Some(
-                "called again, it comes to the same bits, and takes evaluations from the journal in its directory",
+                "called again, it comes to the same bits, and makes no evaluation again that is in the journal of its directory",
             ),
             Self::Run(_) => {
                 Some("it keeps nothing on its way, and begins again when it is run again")

@@ -4,6 +4,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use alewife_interrupt::check;
+
 use super::marker::mark;
 use super::provenance::{Origin, Point, Provenance};
 use super::status::{Motion, RunState, Status};
@@ -54,12 +56,16 @@ impl MotionRecord {
         self.write()
     }
 
-    /// It failed.
+    /// It failed, or was asked to end.
     ///
     /// # Errors
     /// When the file system refuses.
     pub fn fail(mut self, reason: &str) -> io::Result<()> {
-        self.status.state = RunState::Failed;
+        let (state, reason) = match check() {
+            Ok(()) => (RunState::Failed, reason),
+            Err(_) => (RunState::Stopped, "stopped by a signal"),
+        };
+        self.status.state = state;
         self.status.reason = Some(reason.to_owned());
         self.provenance.end_leg(Point::default(), reason);
         self.provenance.write(&self.directory)?;
