@@ -44,7 +44,8 @@ fn the_pose_of_a_free_body_is_of_second_order_in_time() {
         let fine = at(end / 256.0);
         let steps = [16.0, 32.0, 64.0].map(|n| end / n);
         let study = Study::run(&steps, |step| distance(&at(step), &fine));
-        // Faster than that while the ramp takes a few steps only.
+        // Faster than that while the ramp takes a few steps only, and by 0.05 beside a reference four times as fine: the limit
+        // is 1.9 for it, and would be 1.8 beside an exact one.
         study.record(&format!("pose, {model}"));
         assert!(study.order() > 1.9, "pose, {model}: {study:?}");
     }
