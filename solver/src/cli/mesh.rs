@@ -1,6 +1,6 @@
 //! `mesh`: the mesh of a case as a file, and how good it is.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use alewife_mesh::{Encoding, Mesh, write_msh, write_vtu};
 use alewife_reduced::tier::{Model, rest_mesh};
@@ -26,43 +26,51 @@ pub struct Target {
 /// Makes the mesh of a case, writes it as VTU, or as MSH where the name of the file ends so, and reports
 /// its quality.
 pub fn mesh(argument: &str, settings: &[String], target: Target) -> Result<Exit, Failure> {
-    let soft = SoftFile::read_if_soft(argument, settings)?;
-    let file = match &soft {
-        Some(_) => None,
-        None => Some(read_case(argument, settings)?),
-    };
-    let name = soft.as_ref().map(SoftFile::directory_name);
-    let of_flow = || file.as_ref().map(|file| file.full_name().replace('/', "-"));
-    let name = name.or_else(of_flow).unwrap_or_default();
-    let path = target.out.unwrap_or_else(|| PathBuf::from(format!("{name}.vtu")));
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    let is_file = !std::fs::metadata(&path).is_ok_and(|found| !found.is_file());
-    let ending = ending.as_deref();
-    if let Some(ending) = ending.filter(|ending| is_file && !["vtu", "msh"].contains(ending)) {
-        let reason = format!(
-            "--out: no mesh is written as .{ending}; let the name end in .vtu (ParaView) or .msh (Gmsh)"
-        );
-        return Err(Failure::new(Exit::Usage, reason));
+    if let Some(file) = SoftFile::read_if_soft(argument, settings)? {
+        let place = target.place(&file.directory_name())?;
+        return match file.case.geometry.dimensions() {
+            2 => write::<2>(&rest_mesh(&Model::new(&file)?), &place),
+            _ => write::<3>(&rest_mesh(&Model::new(&file)?), &place),
+        };
     }
-    let encoding = match (ending == Some("msh"), target.as_text) {
-        (false, false) => None,
-        (true, false) => Some(Encoding::Binary),
-        (true, true) => Some(Encoding::Text),
-        (false, true) => {
-            let reason = "--text is for files of Gmsh: let the name given to --out end in .msh";
+    let file = read_case(argument, settings)?;
+    let place = target.place(&file.full_name().replace('/', "-"))?;
+    match file.case().geometry.dimensions() {
+        2 => write::<2>(&of_flow_domain(&file)?, &place),
+        _ => write::<3>(&of_flow_domain(&file)?, &place),
+    }
+}
+
+/// Where a mesh is written.
+struct Place {
+    path: PathBuf,
+    /// As a file of Gmsh, or else for ParaView.
+    encoding: Option<Encoding>,
+}
+
+impl Target {
+    /// Where the mesh of a case with this name is written.
+    fn place(self, name: &str) -> Result<Place, Failure> {
+        let path = self.out.unwrap_or_else(|| PathBuf::from(format!("{name}.vtu")));
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let is_file = !std::fs::metadata(&path).is_ok_and(|found| !found.is_file());
+        let ending = ending.as_deref();
+        if let Some(ending) = ending.filter(|ending| is_file && !["vtu", "msh"].contains(ending)) {
+            let reason = format!(
+                "--out: no mesh is written as .{ending}; let the name end in .vtu (ParaView) or .msh (Gmsh)"
+            );
             return Err(Failure::new(Exit::Usage, reason));
         }
-    };
-    match (&soft, &file) {
-        (Some(file), _) if file.case.geometry.dimensions() == 2 => {
-            write::<2>(&rest_mesh(&Model::new(file)?), &path, encoding)
-        }
-        (Some(file), _) => write::<3>(&rest_mesh(&Model::new(file)?), &path, encoding),
-        (None, Some(file)) if file.case().geometry.dimensions() == 2 => {
-            write::<2>(&of_flow_domain(file)?, &path, encoding)
-        }
-        (None, Some(file)) => write::<3>(&of_flow_domain(file)?, &path, encoding),
-        (None, None) => Ok(Exit::Done),
+        let encoding = match (ending == Some("msh"), self.as_text) {
+            (false, false) => None,
+            (true, false) => Some(Encoding::Binary),
+            (true, true) => Some(Encoding::Text),
+            (false, true) => {
+                let reason = "--text is for files of Gmsh: let the name given to --out end in .msh";
+                return Err(Failure::new(Exit::Usage, reason));
+            }
+        };
+        Ok(Place { path, encoding })
     }
 }
 
@@ -74,20 +82,17 @@ where
     build_mesh::<D>(&file.model).map_err(|error| with_key(file, error))
 }
 
-fn write<const D: usize>(
-    mesh: &Mesh<D>,
-    path: &Path,
-    encoding: Option<Encoding>,
-) -> Result<Exit, Failure>
+fn write<const D: usize>(mesh: &Mesh<D>, place: &Place) -> Result<Exit, Failure>
 where
     Dimension<D>: Solve<D>,
 {
+    let Place { path, encoding } = place;
     let failed = |error: std::io::Error| {
         Failure::new(Exit::InputOutput, format!("cannot write {}: {error}", path.display()))
     };
     let mut bytes = Vec::new();
     match encoding {
-        Some(encoding) => write_msh(&mut bytes, mesh, encoding),
+        Some(encoding) => write_msh(&mut bytes, mesh, *encoding),
         None => write_vtu(&mut bytes, mesh, None, &[], &[]),
     }
     .map_err(failed)?;
