@@ -44,5 +44,5 @@ pub use run_directory::{
     WriteTimes, checkpoints, checksum, executable, frames, read_outcome, read_series, run_of_state,
 };
 pub use system::process::{peak_memory, reset_peak_memory};
-pub use system::{UNFINISHED, directory_of, write_atomic};
+pub use system::{UNFINISHED, directory_of, remove_if_there, write_atomic};
 pub use warnings::{Warning, begin_warnings, continue_warnings, warnings};

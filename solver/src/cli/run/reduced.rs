@@ -10,7 +10,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::print_warnings;
 use crate::cli::soft::{hold, not_written};
 use crate::cli::style::say;
-use crate::observer::{Motion, MotionRecord, RunLock, Status, write_atomic};
+use crate::observer::{Motion, MotionRecord, RunLock, Status, remove_if_there, write_atomic};
 use crate::reduced::{ReducedError, simulate};
 use crate::run::Series;
 use crate::runner::recording;
@@ -131,10 +131,7 @@ fn begin(out: &Path, file: &CaseFile) -> Result<RunLock, Failure> {
     let held = hold(out)?;
     let ready = || {
         let text = file.case().to_toml().map_err(std::io::Error::other)?;
-        match std::fs::remove_file(out.join(SERIES)) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(error),
-            _ => {}
-        }
+        remove_if_there(&out.join(SERIES))?;
         write_atomic(&out.join("case.toml"), text.as_bytes())
     };
     ready().map_err(|error| not_written(out, &error))?;

@@ -9,7 +9,7 @@ use crate::case::soft::SoftFile;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::{print_warnings, read_and_check};
 use crate::cli::style::{complain, say};
-use crate::observer::write_atomic;
+use crate::observer::{remove_if_there, write_atomic};
 use crate::reduced::{CalibrateError, JOURNAL, ReducedError, calibrate_in as find};
 
 /// The file that a calibration of a reduced model writes.
@@ -33,7 +33,7 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
     // Another process may have come to its end since
     check_is_open(&out, options)?;
     if options.overwrites() {
-        remove_journal(&out)?;
+        remove_if_there(&out.join(JOURNAL)).map_err(|error| not_written(&out, &error))?;
     }
     let mut told = |line: &str| {
         if !options.quiet {
@@ -59,14 +59,6 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
         .map_err(|error| not_written(&out, &error))?;
     say(&format!("written to {}", out.display()));
     Ok(Exit::Done)
-}
-
-/// Takes away the journal of a search that is replaced.
-fn remove_journal(out: &Path) -> Result<(), Failure> {
-    match std::fs::remove_file(out.join(JOURNAL)) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(not_written(out, &error)),
-        _ => Ok(()),
-    }
 }
 
 /// Refuses to write over a calibration, unless it is to be replaced.

@@ -6,4 +6,5 @@ mod removal;
 
 pub(super) use atomic::{AtPath, unfinished_file, write_whole};
 pub use atomic::{UNFINISHED, directory_of, write_atomic};
-pub(super) use removal::{names_in, remove_if_empty, remove_if_there};
+pub use removal::remove_if_there;
+pub(super) use removal::{names_in, remove_if_empty};

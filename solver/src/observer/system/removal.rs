@@ -15,7 +15,11 @@ pub(in crate::observer) fn names_in(folder: &Path) -> io::Result<Vec<String>> {
     fs::read_dir(folder)?.filter_map(|entry| name(entry).transpose()).collect()
 }
 
-pub(in crate::observer) fn remove_if_there(file: &Path) -> io::Result<()> {
+/// Removes a file, if it is there.
+///
+/// # Errors
+/// When the file system refuses.
+pub fn remove_if_there(file: &Path) -> io::Result<()> {
     match fs::remove_file(file) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error).at(file),
         _ => Ok(()),
