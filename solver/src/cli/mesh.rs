@@ -34,7 +34,7 @@ pub fn mesh(argument: &str, settings: &[String], target: Target) -> Result<Exit,
         };
     }
     let file = read_case(argument, settings)?;
-    let place = target.place(&file.full_name().replace('/', "-"))?;
+    let place = target.place(&file.directory_name())?;
     match file.case().geometry.dimensions() {
         2 => write::<2>(&of_flow_domain(&file)?, &place),
         _ => write::<3>(&of_flow_domain(&file)?, &place),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use crate::observer::STOP;
+use crate::observer::{STOP, remove_if_there};
 use crate::run::{LastState, Observer, RunError, Snapshot};
 use crate::step::StopRequest;
 
@@ -48,9 +48,6 @@ impl<const D: usize> Observer<D> for StopFile {
         _error: &RunError,
         _last: Option<&LastState<'_, D>>,
     ) -> std::io::Result<()> {
-        match std::fs::remove_file(&self.path) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
-            _ => Ok(()),
-        }
+        remove_if_there(&self.path)
     }
 }

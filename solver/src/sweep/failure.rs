@@ -6,7 +6,7 @@ use std::io;
 use serde::{Deserialize, Serialize};
 
 use super::directory::SweepDirectory;
-use crate::observer::write_atomic;
+use crate::observer::{remove_if_there, write_atomic};
 
 /// Why a point failed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -71,9 +71,6 @@ impl PointFailure {
     /// # Errors
     /// When it cannot be removed.
     pub fn forget(directory: &SweepDirectory, index: usize) -> io::Result<()> {
-        match fs::remove_file(directory.failure(index)) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-            _ => Ok(()),
-        }
+        remove_if_there(&directory.failure(index))
     }
 }

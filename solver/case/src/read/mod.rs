@@ -118,6 +118,18 @@ impl CaseFile {
     pub fn full_name(&self) -> String {
         full_name(&self.name, self.variant.as_deref())
     }
+
+    /// The full name as that of a directory: `sphere-in-tube-free-0.5`.
+    #[must_use]
+    pub fn directory_name(&self) -> String {
+        directory_name(&self.full_name())
+    }
+}
+
+/// The full name of a case, or the name of a sweep, as that of a directory.
+#[must_use]
+pub fn directory_name(name: &str) -> String {
+    name.replace('/', "-")
 }
 
 fn full_name(name: &str, variant: Option<&str>) -> String {

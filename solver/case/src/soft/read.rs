@@ -6,7 +6,7 @@ use super::spec::SoftCase;
 use crate::read::case_text::{Located, locate, source_beside};
 use crate::read::files::read_mesh::bytes_of;
 use crate::read::files::surface_file;
-use crate::read::{UntypedCase, collect_numbers, location, wrong};
+use crate::read::{UntypedCase, collect_numbers, directory_name, location, wrong};
 use crate::text::diagnostic::{CaseError, Diagnostic, Severity};
 use crate::text::source::{Location, Origin};
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
@@ -78,7 +78,7 @@ impl SoftFile {
     /// The name as that of a directory: `starfish-soft`.
     #[must_use]
     pub fn directory_name(&self) -> String {
-        self.name.replace('/', "-")
+        directory_name(&self.name)
     }
 
     /// Types it; a sweep is read to find what is wrong in it, and left out.

@@ -66,7 +66,7 @@ pub fn search_line(file: &CaseFile) -> Option<String> {
 
 /// Where a search is written if nothing else is asked for.
 fn default_directory(file: &CaseFile) -> PathBuf {
-    Path::new("runs").join(format!("{}-optimisation", file.full_name().replace('/', "-")))
+    Path::new("runs").join(format!("{}-optimisation", file.directory_name()))
 }
 
 impl From<OptimiseError> for Failure {

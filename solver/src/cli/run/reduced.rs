@@ -113,7 +113,7 @@ fn moved(out: &Path, file: &CaseFile) -> Result<Series, Failure> {
 
 /// Where the run goes: not over one of the full solver, nor over another unless that is asked for.
 fn directory(request: &Request<'_>, file: &CaseFile) -> Result<PathBuf, Failure> {
-    let default = || Path::new("runs").join(file.full_name().replace('/', "-") + "-reduced");
+    let default = || Path::new("runs").join(file.directory_name() + "-reduced");
     let out = request.out.map_or_else(default, Path::to_path_buf);
     let refuse = |what: &str| Err(Failure::new(Exit::Usage, format!("{} {what}", out.display())));
     let is_ours = Status::read(&out).is_ok_and(|status| status.fidelity.as_deref() == Some(MODEL));

@@ -103,7 +103,7 @@ impl Options {
 
     /// The run that is asked for.
     fn plan(&self, file: CaseFile) -> RunPlan {
-        let default = || Path::new("runs").join(file.full_name().replace('/', "-"));
+        let default = || Path::new("runs").join(file.directory_name());
         let out = self.out.clone().unwrap_or_else(default);
         RunPlan {
             threads: self.threads,

@@ -26,7 +26,7 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
     let checked = read_and_check(options.case(), options.set())?;
     let (file, warnings) = (checked.file, checked.warnings);
     print_warnings(&warnings);
-    let default = || Path::new("runs").join(file.full_name().replace('/', "-") + "-calibration");
+    let default = || Path::new("runs").join(file.directory_name() + "-calibration");
     let out: PathBuf = options.out().map_or_else(default, Path::to_path_buf);
     check_is_open(&out, options)?;
     let _held = hold(&out)?;

@@ -1,6 +1,5 @@
 //! Many points of a sweep, each in a process of its own.
 
-use std::fs;
 use std::ops::Range;
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
@@ -15,7 +14,7 @@ use crate::case::Sweep;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::parent;
 use crate::cli::style::{self, complain, say};
-use crate::observer::{STOP, Status, Tally};
+use crate::observer::{STOP, Status, Tally, remove_if_there};
 use crate::runner::{SignalWatch, WallLimit, threads};
 use crate::sweep::{
     Ended, Ending, Launch, Plan, PointFailure, PointState, SweepDirectory, run_children, stand,
@@ -79,7 +78,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     // The same on any number of cores
     score.failed.sort_by_key(|point| point.index);
     let is_stopped = watch.has_come() || stop_file.is_file();
-    remove_stop_file(&stop_file)?;
+    remove_if_there(&stop_file)?;
     let n_left = range.len() - score.finished - score.failed.len();
     if options.index.is_none() {
         collect::write(&directory, None, &[])?;
@@ -220,13 +219,6 @@ pub fn failure_line(directory: &SweepDirectory, index: usize, failure: &PointFai
     let label = directory.plan().label(index);
     let code = failure.exit.map_or_else(String::new, |exit| format!(" with exit code {exit}"));
     format!("point {} ({label}) failed{code}: {}", index + 1, failure.line())
-}
-
-fn remove_stop_file(path: &Path) -> Result<(), Failure> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error.into()),
-        _ => Ok(()),
-    }
 }
 
 fn tell_beginning(options: &Options, directory: &SweepDirectory, score: &Score, n_points: usize) {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::case::Sweep;
+use crate::case::{Sweep, directory_name};
 use crate::cli::complete;
 use crate::cli::exit::Failure;
 
@@ -29,5 +29,5 @@ impl Swept {
 
 /// Where a sweep goes that is given no directory.
 pub fn directory_of(out: Option<&PathBuf>, sweep: &Sweep) -> PathBuf {
-    out.cloned().unwrap_or_else(|| Path::new("sweeps").join(sweep.name().replace('/', "-")))
+    out.cloned().unwrap_or_else(|| Path::new("sweeps").join(directory_name(&sweep.name())))
 }

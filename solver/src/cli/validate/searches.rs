@@ -13,7 +13,7 @@ use super::members::members_of;
 use crate::case::soft::SoftFile;
 use crate::case::soft::spec::ReferenceOf;
 use crate::case::{
-    Case, CaseFile, Expected, OptimumReference, Reference, Statistic, StatisticKind,
+    Case, CaseFile, Expected, OptimumReference, Reference, Statistic, StatisticKind, directory_name,
 };
 use crate::observer::Origin;
 use crate::optimise::{Compared, FlowSearch};
@@ -145,7 +145,7 @@ impl Place {
 
     /// The directory of a search.
     fn of(&self, name: &str, what: &str) -> Result<PathBuf, Failure> {
-        let place = self.directory.join(format!("{}-{what}", name.replace('/', "-")));
+        let place = self.directory.join(format!("{}-{what}", directory_name(name)));
         std::fs::create_dir_all(&place)?;
         Ok(place)
     }

@@ -156,7 +156,7 @@ impl Work {
 
     /// Where a run is kept, if anywhere.
     fn directory(&self, file: &CaseFile, which: Which) -> Option<PathBuf> {
-        let mut name = file.full_name().replace('/', "-");
+        let mut name = file.directory_name();
         if which == Which::Companion {
             name += COARSER;
         }
