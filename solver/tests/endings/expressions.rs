@@ -104,16 +104,25 @@ fn expressions_of_all_kinds_are_refused_by_key_place_and_time() {
 }
 
 #[test]
-fn a_case_is_checked_for_expressions_at_the_start() {
+fn a_case_is_checked_for_expressions_at_the_start_and_in_the_first_step() {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("case.toml"), PLANE).unwrap();
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_alewife"))
-        .args(["check", "case.toml", "--threads", "1", "--set", "fluid.force=['sqrt(x)', 0]"])
-        .args(["--set", "time={ steady = {} }"])
-        .current_dir(directory.path())
-        .output()
-        .unwrap();
-    let told = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(65), "{told}");
-    assert!(told.contains("`fluid.force.0` = \"sqrt(x)\" is NaN"), "{told}");
+    let late = "boundary.left.velocity.value=['sqrt(0.01 - t)', 0]";
+    for (settings, told_first) in [
+        (
+            ["fluid.force=['sqrt(x)', 0]", "time={ steady = {} }"],
+            "`fluid.force.0` = \"sqrt(x)\" is NaN",
+        ),
+        ([late, "mesh.size=1.0"], "`boundary.left.velocity.value.0` = \"sqrt(0.01 - t)\" is NaN"),
+    ] {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_alewife"))
+            .args(["check", "case.toml", "--threads", "1"])
+            .args(settings.iter().flat_map(|setting| ["--set", setting]))
+            .current_dir(directory.path())
+            .output()
+            .unwrap();
+        let told = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(65), "{told}");
+        assert!(told.contains(told_first), "{told}");
+    }
 }

@@ -299,7 +299,11 @@ fn plain(wanted: &dyn Expected) -> String {
     let words = wanted.to_string();
     match words.as_str() {
         "f64" => "a number".to_owned(),
-        "usize" => "a whole number of 0 or more".to_owned(),
+        "usize" | "u64" => "a whole number of 0 or more".to_owned(),
+        "u8" => format!("a whole number from 0 to {}", u8::MAX),
+        "u16" => format!("a whole number from 0 to {}", u16::MAX),
+        "u32" => format!("a whole number from 0 to {}", u32::MAX),
+        "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a sequence" => "an array".to_owned(),
         "a map" => "a table".to_owned(),
@@ -321,6 +325,15 @@ mod tests {
         assert_eq!(suggestion("q", &accepted), "accepted: swimmer.x, swimmer.y");
         let close = suggestion("swimmer.z", &accepted);
         assert!(close.ends_with("accepted: swimmer.x, swimmer.y"), "{close}");
+    }
+
+    #[test]
+    fn whole_numbers_are_called_so_whatever_holds_them() {
+        for kind in ["u8", "u16", "u32", "u64", "usize", "i8", "i16", "i32", "i64", "isize"] {
+            let plain = plain(&kind);
+            assert!(plain.starts_with("a whole number"), "{kind}: {plain}");
+        }
+        assert_eq!(plain(&"u8"), "a whole number from 0 to 255");
     }
 
     #[test]

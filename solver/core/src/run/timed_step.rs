@@ -52,6 +52,10 @@ pub struct TimedStep<const D: usize> {
 }
 
 /// Makes one step of a run on its mesh, without replacing it.
+///
+/// # Errors
+/// When the mesh does not fit into memory, the flow at the start is not found, or an expression of the case
+/// has no finite value.
 pub(super) fn time_step<const D: usize>(
     model: &Model,
     mesh: Mesh<D>,
@@ -79,7 +83,14 @@ where
     let (step, saved) = match &model.case.time {
         TimeSettings::Steady(_) => (None, None),
         TimeSettings::Unsteady(settings) => {
-            let step = one_of_many(&mut simulation, settings);
+            let step = match one_of_many(&mut simulation, settings) {
+                // No shorter step makes such an expression finite
+                Err(StepError::Flow(error)) => match simulation.by_key(&model.case, error.into()) {
+                    RunError::Flow(error) => Err(StepError::Flow(error)),
+                    found => return Err(found),
+                },
+                step => step,
+            };
             let none = (&Series::default(), &Recording::default());
             (Some(step), Some(SavedState::of(&model.case, &simulation, none.0, none.1)?))
         }
