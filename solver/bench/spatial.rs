@@ -10,7 +10,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use alewife_core::body::{Pose, Wrench};
+use alewife_core::body::{MeshPoses, Pose, Wrench};
 use alewife_core::coupling::{FluidSystem, Problem, RigidBody, Side, Solution};
 use alewife_core::space::Metric;
 use alewife_core::timing::{Stage, Timing, cpu_seconds};
@@ -127,7 +127,7 @@ struct Measured {
 }
 
 fn measure(mesh: &Mesh<3>, problem: &Problem<3>, rate: f64) -> Measured {
-    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+    let poses = MeshPoses::of(problem.bodies.iter().map(|body| body.pose));
     let (start_wall, start) = (Instant::now(), cpu_seconds());
     let mut system = FluidSystem::new(problem, mesh, &poses, false);
     let analysis = cpu_seconds() - start;

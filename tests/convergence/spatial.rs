@@ -1,5 +1,6 @@
 //! Orders in space of tetrahedra, in a box and beside curved bodies.
 
+use alewife_core::body::MeshPoses;
 use alewife_core::coupling::{Problem, ResidualAt};
 use alewife_core::space::Metric;
 use alewife_mesh::spatial::{Body, Domain, Shape, generate};
@@ -79,7 +80,7 @@ fn stokes_flow_past_a_sphere_converges_at_the_same_orders_and_its_drag_at_fourth
         let problem = fluid_only(&mesh, sides, 0.0, 1.0, Metric::Cartesian);
         let mut work = workspace(&problem, &mesh);
         let flow = steady_with(&mut work, &problem, &SETTINGS, false);
-        let poses = [problem.bodies[0].pose];
+        let poses = MeshPoses::of([problem.bodies[0].pose]);
         let at = ResidualAt { solution: &flow.solution, residual: &flow.residual, time: 0.0 };
         let loads = work.system.surface_loads(&problem, &mesh, &poses, at);
         let errors = errors(&mesh, &flow.solution, &exact, 0.0, Metric::Cartesian);

@@ -133,7 +133,9 @@ fn one_mesh_follows_a_thin_tail_through_its_beat() {
         let time = 1.0 + f64::from(eighth) / 8.0;
         let shapes =
             BodyShapes::at(&simulation.problem.bodies, time).expect("the gait has a shape");
-        mesh.nodes = moving.nodes(&simulation.state.poses, &shapes).expect("it is moved");
+        mesh.nodes = moving
+            .nodes(&simulation.state.in_mesh(&simulation.state.poses), &shapes)
+            .expect("it is moved");
         let kept = mesh.cell_qualities().into_iter().zip(&when_new).map(|(now, new)| now / new);
         let kept = kept.fold(f64::INFINITY, f64::min);
         println!("{} cells, {time}: {kept:.3} kept", mesh.n_cells());

@@ -1,7 +1,7 @@
 //! Iterative solution of fluid and bodies: against factors, on finer meshes, on more threads.
 
 use alewife_core::algebra::IterativeSettings;
-use alewife_core::body::{Inertia, LoadedBody, Mode, Pose, Wrench};
+use alewife_core::body::{Inertia, LoadedBody, MeshPoses, Mode, Pose, Wrench};
 use alewife_core::case::Steady;
 use alewife_core::coupling::{
     BodiesAt, BodyShapes, DivergenceFreeProjection, Drive, FluidSystem, Problem, RigidBody, Side,
@@ -102,7 +102,7 @@ pub(super) fn solve_from_rest(
     rate: f64,
     choice: SolverChoice,
 ) -> Result<Solved, SolveError> {
-    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+    let poses = MeshPoses::of(problem.bodies.iter().map(|body| body.pose));
     let mut system = FluidSystem::with_solver(problem, mesh, &poses, false, choice);
     let next = one_system_from_rest(&mut system, problem, mesh, rate, &mut Timing::default());
     let iterations = system.accuracy().refinements;
@@ -209,7 +209,7 @@ fn steady_flow(reynolds: f64, choice: SolverChoice) -> SteadyFlow<3> {
     let density = reynolds * VISCOSITY / 2.0;
     let problem = Problem { density, has_convection: true, ..setting.problem(&mesh) };
     let mut work = workspace(&problem, &mesh);
-    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+    let poses = MeshPoses::of(problem.bodies.iter().map(|body| body.pose));
     work.system = FluidSystem::with_solver(&problem, &mesh, &poses, false, choice);
     let settings = Steady { tolerance: 1e-9, max_iterations: 12 };
     steady_with(&mut work, &problem, &settings, true)
@@ -269,7 +269,7 @@ fn solutions_with_one_matrix_share_their_directions() {
         force: Vector3::new(-0.8, 0.1, 0.5) * VISCOSITY,
         torque: Vector3::new(0.2, 0.7, -0.3) * VISCOSITY,
     };
-    let poses: Vec<Pose> = first.bodies.iter().map(|body| body.pose).collect();
+    let poses = MeshPoses::of(first.bodies.iter().map(|body| body.pose));
     let settings = IterativeSettings { tolerance: 1e-11, ..IterativeSettings::default() };
     let choice = SolverChoice::Iterative(settings);
     let second_of_two = |gives_up: bool| {
@@ -297,7 +297,7 @@ fn solutions_with_one_matrix_share_their_directions() {
 fn mobility(setting: &Setting, choice: SolverChoice, turns: bool) -> DMatrix<f64> {
     let mesh = setting.box_of.mesh();
     let problem = setting.problem(&mesh);
-    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+    let poses = MeshPoses::of(problem.bodies.iter().map(|body| body.pose));
     let mut system = FluidSystem::with_solver(&problem, &mesh, &poses, false, choice);
     let mut timing = Timing::default();
     one_system_from_rest(&mut system, &problem, &mesh, 0.0, &mut timing).expect("it is solved");

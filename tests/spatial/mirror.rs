@@ -1,6 +1,6 @@
 //! Swimmers seen in a mirror: on the image of each mesh they move as images, through new meshes too.
 
-use alewife_core::body::{Orientation, Pose};
+use alewife_core::body::{MeshPoses, Orientation, Pose};
 use alewife_core::case::Model;
 use alewife_core::contact::Gaps;
 use alewife_core::coupling::BodyShapes;
@@ -59,8 +59,8 @@ fn image(pose: &Pose) -> Pose {
     Pose { center, orientation: Orientation::Spatial(turn) }
 }
 
-fn images(poses: &[Pose]) -> Vec<Pose> {
-    poses.iter().map(image).collect()
+fn images(poses: &[Pose]) -> MeshPoses {
+    MeshPoses::of(poses.iter().map(image))
 }
 
 /// A scene that is meshed by what the mirror shows of it.
@@ -84,7 +84,7 @@ impl Scene<3> for Mirrored {
     fn remesh_reason(
         &mut self,
         mesh: &Mesh<3>,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
     ) -> Option<String> {
         self.image.remesh_reason(&mirror_image(mesh, AXIS), &images(poses), shapes)
@@ -92,7 +92,7 @@ impl Scene<3> for Mirrored {
 
     fn remesh(
         &self,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
         most: MostCells,
@@ -116,7 +116,7 @@ fn scene(model: &Model) -> Meshed<3> {
     let Simulation { moving_mesh, state, .. } =
         simulation_on(model, mesh).expect("the case is a problem");
     let moving = moving_mesh.expect("its bodies move");
-    let poses = state.poses.clone();
+    let poses = state.in_mesh(&state.poses);
     let shapes = BodyShapes::rigid(poses.len());
     let most = MostCells(f64::INFINITY);
     moving.scene().remesh(&poses, &shapes, &|_| poses.clone(), most).expect("it is meshed again")
@@ -127,7 +127,7 @@ fn in_mirror(model: &Model, shown: Meshed<3>) -> Simulation<3> {
     let mut simulation = simulation_on(model, mesh.clone()).expect("the image is a problem");
     let settings = motion_settings(model, &simulation.problem);
     let scene = Box::new(Mirrored { own: scene(model).scene, image: shown.scene });
-    let poses = simulation.state.poses.clone();
+    let poses = simulation.state.in_mesh(&simulation.state.poses);
     let moving = MovingMesh::new(&mesh, scene, settings, poses, 0.0);
     simulation.moving_mesh = Some(moving.expect("the mesh can move"));
     simulation
@@ -145,7 +145,7 @@ fn squirmers_that_pass_each_other_are_seen_in_the_mirror_as_they_are() {
             let attempt = simulation.try_step(0.2, f64::INFINITY).expect("the step can be made");
             assert!(matches!(attempt, Attempt::Made(_)));
         }
-        for (pose, seen) in one.state.poses.iter().zip(&images(&other.state.poses)) {
+        for (pose, seen) in one.state.poses.iter().zip(images(&other.state.poses).iter()) {
             worst = worst.max(pose.displacement_from(seen).norm());
         }
     }

@@ -134,7 +134,7 @@ fn in_uniform_flow(velocity: &Vector3<f64>, convection: Convection) -> Simulatio
     flow.twists = vec![Twist { linear: *velocity, ..Twist::default() }];
     state.begin(InitialLevels::steady(flow));
     let work = workspace(&problem, &mesh);
-    let poses = state.poses.clone();
+    let poses = state.in_mesh(&state.poses);
     let settings = MotionSettings { kind: MotionKind::default(), turns: vec![true] };
     let scene = Box::new(Bipyramid::of(&mesh, poses[0]));
     let moving = MovingMesh::new(&mesh, scene, settings, poses, 0.0).expect("the mesh can move");

@@ -1,6 +1,6 @@
 //! `Bipyramid`: a scene of few tetrahedra beside one body, meshed once with two and then with three.
 
-use alewife_core::body::{Modes, Pose, on_mesh};
+use alewife_core::body::{MeshPoses, Modes, Pose, on_mesh};
 use alewife_core::contact::{ContactPair, Gaps, MinimumGap, Partner};
 use alewife_core::coupling::BodyShapes;
 use alewife_core::motion::{Meshed, MostCells, PosesByShift, RemeshError, Scene};
@@ -34,13 +34,13 @@ impl Scene<3> for Bipyramid {
         self.lowest_quality
     }
 
-    fn remesh_reason(&mut self, _: &Mesh<3>, _: &[Pose], _: &BodyShapes) -> Option<String> {
+    fn remesh_reason(&mut self, _: &Mesh<3>, _: &MeshPoses, _: &BodyShapes) -> Option<String> {
         (self.n_cells == 2).then(|| "three cells are better".to_owned())
     }
 
     fn remesh(
         &self,
-        poses: &[Pose],
+        poses: &MeshPoses,
         _: &BodyShapes,
         _: PosesByShift<'_>,
         _: MostCells,
@@ -51,7 +51,7 @@ impl Scene<3> for Bipyramid {
             *node += moved;
         }
         let scene = Box::new(Self::of(&mesh, self.start));
-        Ok(Meshed { mesh, scene, poses: poses.to_vec(), shifts: vec![Vector3::zeros()] })
+        Ok(Meshed { mesh, scene, poses: poses.clone(), shifts: vec![Vector3::zeros()] })
     }
 
     fn images(&self, _: [&Mesh<3>; 2]) -> Vec<Point<3>> {

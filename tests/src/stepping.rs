@@ -1,6 +1,6 @@
 //! Flows of problems made by hand, steady and step by step.
 
-use alewife_core::body::Pose;
+use alewife_core::body::MeshPoses;
 use alewife_core::case::{Convection, Steady};
 use alewife_core::coupling::{
     BodiesAt, BodyShapes, Configuration, FluidSystem, MeanFlowAt, Problem, RigidBodyEquations,
@@ -23,8 +23,8 @@ pub fn workspace<const D: usize>(problem: &Problem<D>, mesh: &Mesh<D>) -> Worksp
     Workspace { system, mesh: mesh.clone(), timing: Timing::default() }
 }
 
-fn start_poses<const D: usize>(problem: &Problem<D>) -> Vec<Pose> {
-    problem.bodies.iter().map(|body| body.pose).collect()
+fn start_poses<const D: usize>(problem: &Problem<D>) -> MeshPoses {
+    MeshPoses::of(problem.bodies.iter().map(|body| body.pose))
 }
 
 /// The steady flow at time zero, with convection if the problem has it.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use alewife_core::algebra::{AffineConstraints, CellMaps, SparseMatrix, Unknowns};
+use alewife_core::body::MeshPoses;
 use alewife_core::case::{Case, Model};
 use alewife_core::coupling::{BodiesAt, BodyShapes, FluidSystem, Problem, Solution};
 use alewife_core::flow::{Assembly, Convection, FlowTerms, assemble, residual};
@@ -73,7 +74,7 @@ impl TimeStep {
     fn at_scale(scale: f64) -> Self {
         let (model, mesh) = mesh_at_scale(scale);
         let problem = build_problem(&model, &mesh).expect("the case can be built");
-        let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
+        let poses = MeshPoses::of(problem.bodies.iter().map(|body| body.pose));
         let system = FluidSystem::new(&problem, &mesh, &poses, false);
         let shapes = BodyShapes::at(&problem.bodies, 0.0).expect("no body deforms");
         let constraints =

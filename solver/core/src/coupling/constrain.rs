@@ -12,7 +12,7 @@ use super::problem::{Drive, Problem, RigidBody};
 use super::shapes::BodyShapes;
 use super::surface::{BodyVelocity, MovingSurface, RestPlaces};
 use crate::algebra::{AffineConstraints, ConstraintBuilder, Term};
-use crate::body::{Mode, Pose, Twist, in_space, on_mesh};
+use crate::body::{MeshPoses, Mode, Pose, Twist, in_space, on_mesh};
 use crate::space::DofLayout;
 use crate::structure::{Held, Weight};
 
@@ -20,7 +20,7 @@ use crate::structure::{Held, Weight};
 #[derive(Debug, Clone, Copy)]
 pub struct BodiesAt<'a> {
     /// Poses in the mesh.
-    pub poses: &'a [Pose],
+    pub poses: &'a MeshPoses,
     /// Shapes, and the time (s) at which boundary values and gaits are taken.
     pub shapes: &'a BodyShapes,
 }

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::error::GradientError;
 use crate::algebra::AffineConstraints;
-use crate::body::Pose;
+use crate::body::{MeshPoses, Pose};
 use crate::case::{CaseFile, Model, Steady, TimeSettings};
 use crate::coupling::{BodiesAt, BodyShapes, Configuration, Problem, RigidBodyEquations};
 use crate::run::RunError;
@@ -21,7 +21,7 @@ pub(super) struct CasePoint<const D: usize> {
     /// Poses of the bodies in the laboratory.
     pub poses: Vec<Pose>,
     /// The same in the mesh.
-    pub in_mesh: Vec<Pose>,
+    pub in_mesh: MeshPoses,
     /// By how much the nodes have moved (m); nothing where none has.
     pub moved: Vec<Point<D>>,
     /// How it is solved.
@@ -47,7 +47,7 @@ impl<const D: usize> CasePoint<D> {
             ));
         };
         let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
-        let in_mesh = poses.iter().zip(shifts).map(|(pose, shift)| pose.shifted(shift)).collect();
+        let in_mesh = MeshPoses::seen_from(&Vector3::zeros(), &poses, shifts);
         let shapes = BodyShapes::at(&problem.bodies, 0.0).map_err(RunError::from)?;
         let equations = RigidBodyEquations::steady(&problem, &poses, 0.0);
         Ok(Self {

@@ -11,7 +11,7 @@ use super::rigid::RigidMove;
 use super::rolling::Rolling;
 use super::scene::{Meshed, MostCells, PosesByShift, RemeshError, RestPlace, Scene};
 use super::stiffness::MotionKind;
-use crate::body::{Pose, RigidVector, in_space, on_mesh};
+use crate::body::{MeshPoses, Pose, RigidVector, in_space, on_mesh};
 use crate::contact::Gaps;
 use crate::coupling::{BodyShapes, RestPlaces, RigidBody, coordinate_ranges};
 use crate::state::State;
@@ -24,7 +24,7 @@ const DEGENERATE: f64 = 0.02;
 pub struct MovingMesh<const D: usize> {
     motion: MeshMotion<D>,
     /// Poses of the bodies in the reference mesh.
-    reference_poses: Vec<Pose>,
+    reference_poses: MeshPoses,
     /// Coordinates of the bodies in it that have some.
     reference_coordinates: Vec<f64>,
     /// Time of the reference mesh (s).
@@ -82,7 +82,7 @@ impl<const D: usize> MovingMesh<D> {
         mesh: &Mesh<D>,
         scene: Box<dyn Scene<D>>,
         settings: MotionSettings,
-        reference_poses: Vec<Pose>,
+        reference_poses: MeshPoses,
         reference_time: f64,
     ) -> Result<Self, MotionError> {
         let mut conditions = mesh_boundary_conditions(mesh, true);
@@ -136,8 +136,8 @@ impl<const D: usize> MovingMesh<D> {
     }
 
     /// How each body has carried its nodes from the reference mesh to these poses.
-    fn surface_maps(&self, poses: &[Pose], shapes: &BodyShapes) -> Vec<SurfaceMap> {
-        let moved = poses.iter().zip(&self.reference_poses);
+    fn surface_maps(&self, poses: &MeshPoses, shapes: &BodyShapes) -> Vec<SurfaceMap> {
+        let moved = poses.iter().zip(self.reference_poses.iter());
         let displacements: Vec<RigidVector> =
             moved.map(|(pose, reference)| pose.displacement_from(reference)).collect();
         let turns = self.rolling.turns(&displacements);
@@ -161,7 +161,11 @@ impl<const D: usize> MovingMesh<D> {
     ///
     /// # Errors
     /// When memory runs out, or a node on a body has no material point.
-    pub fn nodes(&self, poses: &[Pose], shapes: &BodyShapes) -> Result<Vec<Point<D>>, MotionError> {
+    pub fn nodes(
+        &self,
+        poses: &MeshPoses,
+        shapes: &BodyShapes,
+    ) -> Result<Vec<Point<D>>, MotionError> {
         let maps = self.surface_maps(poses, shapes);
         let given = |boundary: BoundaryId, node: NodeId, reference: &Point<D>| {
             let Some(body) = self.bodies[boundary] else {
@@ -278,7 +282,7 @@ impl<const D: usize> MovingMesh<D> {
     pub fn reason_to_replace(
         &mut self,
         mesh: &Mesh<D>,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
     ) -> Option<String> {
         self.scene.remesh_reason(mesh, poses, shapes)
@@ -290,7 +294,7 @@ impl<const D: usize> MovingMesh<D> {
     /// When it cannot be generated, or would have more cells than it may have.
     pub fn remesh(
         &self,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
         most: MostCells,
@@ -309,7 +313,7 @@ impl<const D: usize> MovingMesh<D> {
         &self,
         mesh: &Mesh<D>,
         scene: Box<dyn Scene<D>>,
-        poses: Vec<Pose>,
+        poses: MeshPoses,
         time: f64,
     ) -> Result<Self, MotionError> {
         Self::new(mesh, scene, self.settings.clone(), poses, time)
@@ -356,7 +360,7 @@ impl<const D: usize> MovingMesh<D> {
 
     /// Poses of the bodies in the reference mesh.
     #[must_use]
-    pub fn reference_poses(&self) -> &[Pose] {
+    pub fn reference_poses(&self) -> &MeshPoses {
         &self.reference_poses
     }
 }

@@ -6,9 +6,9 @@ use nalgebra::Vector3;
 
 use super::moving_mesh::MovingMesh;
 use super::scene::{Meshed, MostCells, RemeshError};
-use crate::body::Pose;
+use crate::body::{MeshPoses, Pose};
 use crate::coupling::{BodyShapes, Problem};
-use crate::state::{State, seen_from};
+use crate::state::State;
 
 /// Time from a new mesh to its reference mesh over that from the reference mesh before to the end of its mesh.
 const LEAD: f64 = 0.7;
@@ -72,7 +72,7 @@ fn generate_for_future_poses<const D: usize>(
     }
     let ahead = Expected { most, ..expected(problem, state, moving, shapes, lead) };
     let mut made = generate(problem, state, moving, shapes, &ahead).ok()?;
-    let poses = seen_from(&state.origin, &state.poses, &made.image_shifts);
+    let poses = MeshPoses::seen_from(&state.origin, &state.poses, &made.image_shifts);
     let reason = made.moving.reason_to_replace(&made.mesh, &poses, shapes);
     tracing::debug!(lasted, lead = ahead.time - state.time, poor = reason, "mesh made ahead");
     reason.is_none().then_some(made)
@@ -96,7 +96,7 @@ fn expected<const D: usize>(
     let gaps = moving.gaps_at(shapes);
     let part = gaps.part_that_keeps_open(&|part| {
         let poses = if part > 0.0 { poses_after(part * lead) } else { state.poses.clone() };
-        state.in_own_frame(problem, &poses)
+        state.in_own_frame(problem, &poses).into_vec()
     });
     let lead = lead * part;
     let most = MostCells(f64::INFINITY);
@@ -117,7 +117,7 @@ fn generate<const D: usize>(
     let moved = |shifts: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
         state.image_shifts.iter().zip(shifts).map(|(known, shift)| known + shift).collect()
     };
-    let shifted = |shifts: &[Vector3<f64>]| seen_from(&origin, poses, &moved(shifts));
+    let shifted = |shifts: &[Vector3<f64>]| MeshPoses::seen_from(&origin, poses, &moved(shifts));
     let seen = state.in_frame(&origin, poses);
     let Meshed { mesh, scene, poses, shifts } = moving.remesh(&seen, &shapes, &shifted, *most)?;
     let image_shifts = moved(&shifts);
@@ -127,7 +127,7 @@ fn generate<const D: usize>(
     if *time == state.time && state.shapes.now.is_empty() {
         return Ok(NewMesh { mesh, moving, image_shifts });
     }
-    let present = seen_from(&state.origin, &state.poses, &image_shifts);
+    let present = MeshPoses::seen_from(&state.origin, &state.poses, &image_shifts);
     let nodes = moving.nodes(&present, shapes_now)?;
     Ok(NewMesh { mesh: mesh.with_nodes(nodes), moving, image_shifts })
 }

@@ -1,7 +1,7 @@
 //! `PresentGaps`: gaps between the bodies of a state, with the shapes and the places they have in its mesh.
 
 use super::moving_mesh::{GapsAt, MovingMesh};
-use crate::body::Pose;
+use crate::body::MeshPoses;
 use crate::contact::{ContactPair, Partner};
 use crate::coupling::{BodyShapes, Problem, ShapeError};
 use crate::state::State;
@@ -10,7 +10,7 @@ use crate::state::State;
 /// mesh by whole periods away from their poses: who asks for these gaps has neither to think of.
 pub struct PresentGaps<'a> {
     gaps: GapsAt<'a>,
-    poses: Vec<Pose>,
+    poses: MeshPoses,
 }
 
 impl<const D: usize> MovingMesh<D> {

@@ -7,14 +7,14 @@ use super::moving_mesh::MovingMesh;
 use super::new_mesh::{NewMesh, new_mesh};
 use super::scene::{MostCells, RemeshError};
 use super::transfer::Transfer;
-use crate::body::on_mesh;
+use crate::body::{MeshPoses, on_mesh};
 use crate::coupling::{
     BodiesAt, BodyShapes, Boundaries, BoundaryValues, DivergenceFreeProjection, Problem,
     RestPlaces, Solution, impose_boundary_values,
 };
 use crate::scalar::{MassMatrix, ScalarField};
 use crate::space::Tables;
-use crate::state::{State, TransferredState, seen_from};
+use crate::state::{State, TransferredState};
 
 /// One level of a flow, on the old mesh and where the new one is to be then.
 struct Level<'a, const D: usize> {
@@ -44,10 +44,10 @@ pub fn replace_mesh<const D: usize>(
     let shapes = BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
     let NewMesh { mesh: new, moving: successor, image_shifts } =
         new_mesh(problem, state, moving, &shapes, most)?;
-    let poses = seen_from(&state.origin, &state.poses, &image_shifts);
+    let poses = MeshPoses::seen_from(&state.origin, &state.poses, &image_shifts);
     // The frame was elsewhere one level back, too
     let origin_before = state.origin_at(problem, &state.previous_poses);
-    let previous_poses = seen_from(&origin_before, &state.previous_poses, &image_shifts);
+    let previous_poses = MeshPoses::seen_from(&origin_before, &state.previous_poses, &image_shifts);
 
     // One level back the new mesh is where its own motion puts it: nodes whose way had a kink would
     // cost the next step its second order

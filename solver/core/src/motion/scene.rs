@@ -6,7 +6,7 @@ use alewife_mesh::{BoundaryId, Mesh, MeshError, NodeId, Point};
 use nalgebra::Vector3;
 use thiserror::Error;
 
-use crate::body::Pose;
+use crate::body::MeshPoses;
 use crate::contact::{ContactError, Gaps};
 use crate::coupling::{BodyShapes, ShapeError};
 use crate::motion::MotionError;
@@ -62,7 +62,7 @@ pub struct Meshed<const D: usize> {
     /// What it was generated for.
     pub scene: Box<dyn Scene<D>>,
     /// Poses of the bodies in it.
-    pub poses: Vec<Pose>,
+    pub poses: MeshPoses,
     /// Whole periods by which each body has been moved (m).
     pub shifts: Vec<Vector3<f64>>,
 }
@@ -120,7 +120,7 @@ impl MostCells {
 }
 
 /// Poses of bodies that have been moved by whole periods (m).
-pub type PosesByShift<'a> = &'a dyn Fn(&[Vector3<f64>]) -> Vec<Pose>;
+pub type PosesByShift<'a> = &'a dyn Fn(&[Vector3<f64>]) -> MeshPoses;
 
 /// Domain and bodies as they were meshed: the reference configuration of a moving mesh.
 ///
@@ -174,7 +174,7 @@ pub trait Scene<const D: usize>: Debug + Send + Sync {
     fn remesh_reason(
         &mut self,
         mesh: &Mesh<D>,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
     ) -> Option<String>;
 
@@ -184,7 +184,7 @@ pub trait Scene<const D: usize>: Debug + Send + Sync {
     /// When it cannot be generated, or would have more cells than it may have.
     fn remesh(
         &self,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
         most: MostCells,

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::RunError;
 use super::resume::Reference;
-use crate::body::Pose;
+use crate::body::MeshPoses;
 use crate::case::{Case, Model};
 use crate::coupling::Problem;
 use crate::motion::MovingMesh;
@@ -53,7 +53,7 @@ pub type NearestOnBody<const D: usize> = Box<dyn Fn(&Point<D>) -> Point<D>>;
 
 /// Makes what moves a mesh, with the bodies at these poses.
 pub(super) type MakeMovingMesh<const D: usize> =
-    Box<dyn FnOnce(&Model, &Problem<D>, &Mesh<D>, Vec<Pose>) -> Result<MovingMesh<D>, RunError>>;
+    Box<dyn FnOnce(&Model, &Problem<D>, &Mesh<D>, MeshPoses) -> Result<MovingMesh<D>, RunError>>;
 
 /// The mesh of a case at time zero.
 pub struct InitialMesh<const D: usize> {

@@ -26,5 +26,5 @@ pub use new_level::{NewLevel, TransferredState};
 pub use propulsion_history::{PowerShare, PropulsionHistory, PropulsionStep};
 pub use saved_mesh::is_consistent;
 pub use shape_state::ShapeState;
-pub use state::{Evolving, State, seen_from};
+pub use state::{Evolving, State};
 pub use step_errors::{ErrorOfChange, SquaredError, StepErrors};

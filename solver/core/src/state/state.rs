@@ -15,7 +15,7 @@ use super::propulsion_history::PropulsionHistory;
 use super::saved_mesh;
 use super::shape_state::ShapeState;
 use super::step_errors::StepErrors;
-use crate::body::{Pose, Twist, on_mesh};
+use crate::body::{MeshPoses, Pose, Twist, on_mesh};
 use crate::contact::{ContactLoads, MinimumGap};
 use crate::coupling::{
     BodyLoads, LoadedBodies, Problem, PropulsionPower, Solution, SurfaceStress, mean_motion,
@@ -333,19 +333,19 @@ impl<const D: usize> State<D> {
 
     /// Poses where bodies would be in the mesh.
     #[must_use]
-    pub fn in_mesh(&self, poses: &[Pose]) -> Vec<Pose> {
-        seen_from(&Vector3::zeros(), poses, &self.image_shifts)
+    pub fn in_mesh(&self, poses: &[Pose]) -> MeshPoses {
+        self.in_frame(&Vector3::zeros(), poses)
     }
 
     /// Poses where bodies would be in the mesh, seen from a frame at `origin` (m).
     #[must_use]
-    pub fn in_frame(&self, origin: &Vector3<f64>, poses: &[Pose]) -> Vec<Pose> {
-        seen_from(origin, poses, &self.image_shifts)
+    pub fn in_frame(&self, origin: &Vector3<f64>, poses: &[Pose]) -> MeshPoses {
+        MeshPoses::seen_from(origin, poses, &self.image_shifts)
     }
 
     /// Poses where bodies would be in the mesh, seen from the frame that goes with them.
     #[must_use]
-    pub fn in_own_frame(&self, problem: &Problem<D>, poses: &[Pose]) -> Vec<Pose> {
+    pub fn in_own_frame(&self, problem: &Problem<D>, poses: &[Pose]) -> MeshPoses {
         self.in_frame(&self.origin_at(problem, poses), poses)
     }
 
@@ -377,15 +377,4 @@ impl<const D: usize> State<D> {
             .frame
             .map_or(Vector3::zeros(), |body| poses[body].center - problem.bodies[body].pose.center)
     }
-}
-
-/// Poses, `image_shifts` (m) added to their centres, seen from a frame at `origin` (m).
-#[must_use]
-pub fn seen_from(
-    origin: &Vector3<f64>,
-    poses: &[Pose],
-    image_shifts: &[Vector3<f64>],
-) -> Vec<Pose> {
-    let pairs = poses.iter().zip(image_shifts);
-    pairs.map(|(pose, shift)| Pose { center: pose.center + shift - origin, ..*pose }).collect()
 }

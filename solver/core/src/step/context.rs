@@ -103,8 +103,8 @@ impl<'a, const D: usize> StepContext<'a, D> {
         Some(CoupledContact {
             gaps,
             law,
-            start: state.in_frame(&origin, &state.poses),
-            predicted: state.in_frame(&origin, poses),
+            start: state.in_frame(&origin, &state.poses).into_vec(),
+            predicted: state.in_frame(&origin, poses).into_vec(),
             predicted_velocities: levels.map(velocity).collect(),
             dynamics: BodyDynamics {
                 rate: history.step.bdf.next,

@@ -92,7 +92,7 @@ impl<const D: usize> LoadedFlow for FlowUnderLoads<'_, D> {
         // The displacement of the frame is no part of the unknowns
         let StepContext { stepper, state, .. } = self.step;
         let origin = state.origin_at(stepper.problem, &self.configuration.placement.poses);
-        state.in_frame(&origin, &self.step.integrated_poses(self.twists()))
+        state.in_frame(&origin, &self.step.integrated_poses(self.twists())).into_vec()
     }
 
     fn poses_have_converged(&self, contact: &ContactLoads) -> bool {

@@ -140,7 +140,8 @@ impl<const D: usize> StepContext<'_, D> {
             pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect()
         };
         let part = gaps.part_that_keeps_open(&|part| {
-            let seen = |poses: &[Pose]| self.state.in_own_frame(self.stepper.problem, poses);
+            let seen =
+                |poses: &[Pose]| self.state.in_own_frame(self.stepper.problem, poses).into_vec();
             match part {
                 0.0 => seen(apart),
                 1.0 => seen(poses),

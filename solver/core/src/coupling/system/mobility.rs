@@ -8,7 +8,7 @@ use super::super::problem::Problem;
 use super::super::solution::Solution;
 use super::FluidSystem;
 use crate::algebra::{AffineConstraints, ConstraintBuilder, Term};
-use crate::body::{BodyLoad, LoadedBody, Mode, Pose};
+use crate::body::{BodyLoad, LoadedBody, MeshPoses, Mode};
 use crate::space::DofLayout;
 use crate::timing::Timing;
 
@@ -56,7 +56,7 @@ impl<const D: usize> FluidSystem<D> {
     pub fn free_motions_at(
         &self,
         problem: &Problem<D>,
-        poses: &[Pose],
+        poses: &MeshPoses,
         time: f64,
         bodies: &[LoadedBody],
     ) -> DMatrix<f64> {

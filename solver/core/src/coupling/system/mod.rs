@@ -44,7 +44,7 @@ use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface::RestPlaces;
 use crate::algebra::{Accuracy, AffineConstraints, SolverMemory, SparseMatrix, Unknowns};
-use crate::body::{Modes, Pose};
+use crate::body::{MeshPoses, Modes};
 use crate::flow::{Assembly, FlowTerms};
 use crate::space::{DofLayout, FacetRule, Tables};
 use crate::timing::Timing;
@@ -116,7 +116,12 @@ impl<const D: usize> FluidSystem<D> {
     /// Analyses a problem on a mesh. `unknown_frame` makes the frame's velocity an unknown of the
     /// convection.
     #[must_use]
-    pub fn new(problem: &Problem<D>, mesh: &Mesh<D>, poses: &[Pose], unknown_frame: bool) -> Self {
+    pub fn new(
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        poses: &MeshPoses,
+        unknown_frame: bool,
+    ) -> Self {
         Self::with_solver(problem, mesh, poses, unknown_frame, SolverChoice::default())
     }
 
@@ -125,7 +130,7 @@ impl<const D: usize> FluidSystem<D> {
     pub fn with_solver(
         problem: &Problem<D>,
         mesh: &Mesh<D>,
-        poses: &[Pose],
+        poses: &MeshPoses,
         unknown_frame: bool,
         choice: SolverChoice,
     ) -> Self {
@@ -260,7 +265,7 @@ impl<const D: usize> FluidSystem<D> {
         &self,
         problem: &Problem<D>,
         mesh: &Mesh<D>,
-        poses: &[Pose],
+        poses: &MeshPoses,
         ResidualAt { solution, residual, time }: ResidualAt<'_, D>,
     ) -> SurfaceLoads {
         let flow = ResidualOnMesh {

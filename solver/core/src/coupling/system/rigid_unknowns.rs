@@ -9,7 +9,7 @@ use super::super::shapes::BodyShapes;
 use super::numbering::{blocks_of_bodies, free_velocities};
 use super::{Configuration, FluidSystem};
 use crate::algebra::{AffineConstraints, Term};
-use crate::body::Pose;
+use crate::body::MeshPoses;
 use crate::flow::Assembly;
 
 impl<const D: usize> FluidSystem<D> {
@@ -46,7 +46,7 @@ impl<const D: usize> FluidSystem<D> {
 
     /// Makes the system one as [`Self::new`] numbers it for bodies at these poses: those that are reached may be
     /// beyond a diagonal that those the flow was solved for have not passed.
-    pub fn fit_to_poses(&mut self, problem: &Problem<D>, mesh: &Mesh<D>, poses: &[Pose]) {
+    pub fn fit_to_poses(&mut self, problem: &Problem<D>, mesh: &Mesh<D>, poses: &MeshPoses) {
         if !problem.has_joints() || self.is_numbered_for(problem, poses) {
             return;
         }
@@ -56,7 +56,7 @@ impl<const D: usize> FluidSystem<D> {
     }
 
     /// Whether the velocities of bodies on joints that are unknowns are those for bodies at these poses.
-    fn is_numbered_for(&self, problem: &Problem<D>, poses: &[Pose]) -> bool {
+    fn is_numbered_for(&self, problem: &Problem<D>, poses: &MeshPoses) -> bool {
         // Which those are depends on poses only
         let rows = problem.rigid_rows(poses, 0.0);
         let is_free = self.numbering.is_free.chunks_exact(self.modes.len());

@@ -24,8 +24,7 @@ pub(super) fn moving_mesh_of(
     let planar = Arc::new(PlanarCase::new(model, problem)?);
     let settings = planar.motion.clone();
     let poses = saved.poses.clone();
-    let scene =
-        PlanarScene::restored(planar, mesh, poses.clone(), &shapes).map_err(ResumeError::from)?;
+    let scene = PlanarScene::restored(planar, mesh, &poses, &shapes).map_err(ResumeError::from)?;
     let moving = MovingMesh::new(mesh, Box::new(scene), settings, poses, saved.time)?;
     Ok(moving.with_coordinates(saved.coordinates.clone()))
 }

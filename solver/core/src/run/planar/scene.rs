@@ -10,7 +10,7 @@ use alewife_mesh::{
 use nalgebra::{SMatrix, Vector3};
 
 use super::case::{PlanarCase, move_into};
-use crate::body::{Pose, on_mesh};
+use crate::body::{MeshPoses, Pose, on_mesh};
 use crate::contact::{COORDINATES_OF_SECTION, Gaps, PlanarGaps, Section, Sections};
 use crate::coupling::BodyShapes;
 use crate::gait::{DeformedOutline, WavingSheet};
@@ -76,7 +76,7 @@ impl PlanarScene {
         case: Arc<PlanarCase>,
         mesh: &Mesh<2>,
         shapes: Vec<PlacedShape>,
-        poses: &[Pose],
+        poses: &MeshPoses,
     ) -> Result<Self, RemeshError> {
         let sheets = mesh.boundaries.iter().map(|boundary| case.sheet(&boundary.name)).collect();
         let domain = &case.domain;
@@ -94,11 +94,11 @@ impl PlanarScene {
     pub fn restored(
         case: Arc<PlanarCase>,
         mesh: &Mesh<2>,
-        poses: Vec<Pose>,
+        poses: &MeshPoses,
         shapes: &BodyShapes,
     ) -> Result<Self, RemeshError> {
-        let carried = shapes_at(&case, &poses, shapes);
-        Self::new(case, mesh, carried, &poses)
+        let carried = shapes_at(&case, poses, shapes);
+        Self::new(case, mesh, carried, poses)
     }
 }
 
@@ -106,8 +106,8 @@ impl PlanarScene {
 ///
 /// Always carried from where they started, so that a scene that is restored has the same bits as one that has gone
 /// from mesh to mesh.
-fn shapes_at(case: &PlanarCase, poses: &[Pose], shapes: &BodyShapes) -> Vec<PlacedShape> {
-    let bodies = case.start_shapes.iter().zip(&case.start_poses).zip(poses).enumerate();
+fn shapes_at(case: &PlanarCase, poses: &MeshPoses, shapes: &BodyShapes) -> Vec<PlacedShape> {
+    let bodies = case.start_shapes.iter().zip(&case.start_poses).zip(poses.iter()).enumerate();
     bodies
         .map(|(body, ((shape, start), pose))| {
             match shapes.deformed(body).and_then(DeformedOutline::shape) {
@@ -128,7 +128,7 @@ fn materials(
     case: &PlanarCase,
     mesh: &Mesh<2>,
     shapes: &[PlacedShape],
-    poses: &[Pose],
+    poses: &MeshPoses,
 ) -> Result<BTreeMap<NodeId, OnOutline>, RemeshError> {
     let outline = |body: usize| {
         let outline =
@@ -214,7 +214,7 @@ impl Scene<2> for PlanarScene {
     fn remesh_reason(
         &mut self,
         mesh: &Mesh<2>,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
     ) -> Option<String> {
         let placed = shapes_at(&self.case, poses, shapes);
@@ -231,7 +231,7 @@ impl Scene<2> for PlanarScene {
 
     fn remesh(
         &self,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
         most: MostCells,

@@ -17,7 +17,7 @@ use super::simulation::{Simulation, fluid_system};
 use super::step_control::StepControl;
 use super::{RunError, Series};
 use crate::algebra::SolverMemory;
-use crate::body::Pose;
+use crate::body::MeshPoses;
 use crate::case::{Case, Recording};
 use crate::coupling::Problem;
 use crate::motion::MovingMesh;
@@ -44,7 +44,7 @@ pub struct SavedReference<const D: usize> {
     /// Positions of its nodes (m).
     pub nodes: Vec<Point<D>>,
     /// Poses of the bodies.
-    pub poses: Vec<Pose>,
+    pub poses: MeshPoses,
     /// Coordinates of the bodies that have some.
     pub coordinates: Vec<f64>,
     /// The time it is made for (s).
@@ -55,7 +55,7 @@ impl<const D: usize> SavedReference<D> {
     fn of(moving: &MovingMesh<D>) -> Self {
         Self {
             nodes: moving.reference().to_vec(),
-            poses: moving.reference_poses().to_vec(),
+            poses: moving.reference_poses().clone(),
             coordinates: moving.reference_coordinates().to_vec(),
             time: moving.reference_time(),
         }

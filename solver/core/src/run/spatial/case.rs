@@ -4,7 +4,7 @@ use alewife_mesh::spatial::{Body as Solid, Domain, Part};
 use alewife_mesh::{Point, Sizing};
 use nalgebra::{Isometry3, Vector3};
 
-use crate::body::Pose;
+use crate::body::{MeshPoses, Pose};
 use crate::case::{Body, Case, MeshFile, Model};
 use crate::contact::frame_of;
 use crate::coupling::{BodyShapes, Problem, ShapeError};
@@ -62,8 +62,8 @@ impl SpatialCase {
     }
 
     /// The bodies with these shapes in poses.
-    pub fn solids_at(&self, poses: &[Pose], shapes: &BodyShapes) -> Vec<Solid> {
-        let bodies = self.solids.iter().zip(&self.centroids).zip(poses).enumerate();
+    pub fn solids_at(&self, poses: &MeshPoses, shapes: &BodyShapes) -> Vec<Solid> {
+        let bodies = self.solids.iter().zip(&self.centroids).zip(poses.iter()).enumerate();
         let placed = |(body, ((solid, centroid), pose)): (usize, ((&Solid, &Point<3>), &Pose))| {
             let placed = Solid { pose: frame_of(pose, centroid), ..solid.clone() };
             with_shape(placed, shapes.deformed(body))

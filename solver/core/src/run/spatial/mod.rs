@@ -16,7 +16,7 @@ use super::build::{sides_of_bodies, sizing};
 use super::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh, NearestOnBody};
 use super::resume::{Reference, ResumeError};
 use super::start::check_cells;
-use crate::body::Pose;
+use crate::body::MeshPoses;
 use crate::case::{Case, Model};
 use crate::coupling::{BodyShapes, Problem};
 use crate::motion::MovingMesh;
@@ -85,7 +85,7 @@ fn moving(
     model: &Model,
     problem: &Problem<3>,
     mesh: &Mesh<3>,
-    poses: Vec<Pose>,
+    poses: MeshPoses,
     time: f64,
     failed: fn(RemeshError) -> RunError,
 ) -> Result<MovingMesh<3>, RunError> {

@@ -8,7 +8,7 @@ use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
 use super::case::{SpatialCase, move_into};
-use crate::body::Pose;
+use crate::body::MeshPoses;
 use crate::contact::{Gaps, SpatialGaps, frame_of};
 use crate::coupling::BodyShapes;
 use crate::gait::MaterialPoint;
@@ -31,7 +31,7 @@ impl SpatialScene {
     pub fn new(
         case: Arc<SpatialCase>,
         mesh: &Mesh<3>,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
     ) -> Result<Self, RemeshError> {
         let solids = case.solids_at(poses, shapes);
@@ -47,7 +47,7 @@ impl SpatialScene {
 /// Material points of the nodes on bodies that deform.
 fn materials(
     mesh: &Mesh<3>,
-    poses: &[Pose],
+    poses: &MeshPoses,
     shapes: &BodyShapes,
 ) -> HashMap<NodeId, MaterialPoint> {
     let mut materials = HashMap::new();
@@ -96,7 +96,7 @@ impl Scene<3> for SpatialScene {
     fn remesh_reason(
         &mut self,
         mesh: &Mesh<3>,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
     ) -> Option<String> {
         for (body, (pose, centroid)) in poses.iter().zip(&self.case.centroids).enumerate() {
@@ -111,7 +111,7 @@ impl Scene<3> for SpatialScene {
 
     fn remesh(
         &self,
-        poses: &[Pose],
+        poses: &MeshPoses,
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
         most: MostCells,
