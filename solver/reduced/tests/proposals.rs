@@ -165,6 +165,31 @@ fn a_program_proposes_and_what_it_may_not_answer_is_refused() {
 }
 
 #[test]
+fn what_a_program_has_started_ends_with_it() {
+    let place = tempfile::tempdir().unwrap();
+    let program = External {
+        command: ["sh", "-c", "sleep 60 & echo $! > id; wait"].map(str::to_owned).to_vec(),
+        directory: place.path().to_owned(),
+    };
+    let id = place.path().join("id");
+    let seen = id.clone();
+    let request: Request =
+        Arc::new(move || std::fs::read(&seen).is_ok_and(|id| id.ends_with(b"\n")));
+    let mut ask = |proposals: &Proposals<'_>| program.ask(proposals);
+    let heard = hearing(request, || sought(Method::External(&mut ask), 12, None));
+    assert!(heard.was_ended);
+    let started = std::fs::read_to_string(id).unwrap();
+    let stat = Path::new("/proc").join(started.trim()).join("stat");
+    // Gone, or a zombie that nobody has waited for
+    let has_ended = || std::fs::read_to_string(&stat).map_or(true, |stat| stat.contains(") Z "));
+    let looks = (0..500).any(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+        has_ended()
+    });
+    assert!(looks, "the process {} of the program goes on", started.trim());
+}
+
+#[test]
 fn a_start_that_fails_or_is_outside_is_refused() {
     let mut one = bounded();
     one[0].start = -1.7;

@@ -1,11 +1,13 @@
 //! `External`: a program that proposes points: it reads JSON and writes JSON, once for each point.
 
 use std::io::{Read as _, Write as _};
+use std::os::unix::process::CommandExt as _;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use alewife_interrupt::check;
+use rustix::process::{Pid, Signal, kill_process_group};
 use serde_json::{Map, Value, json};
 
 use super::proposals::{Proposal, Proposals};
@@ -74,6 +76,8 @@ impl External {
             .current_dir(&self.directory)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
+            // What it starts ends with it
+            .process_group(0)
             .spawn()
             .map_err(failed)?;
         if let Some(mut input) = child.stdin.take() {
@@ -91,8 +95,7 @@ impl External {
                 break status;
             }
             if check().is_err() {
-                let _ = child.kill();
-                let _ = child.wait();
+                end(&mut child);
                 return Err("it was asked to end".to_owned());
             }
             std::thread::sleep(LOOK_EVERY);
@@ -108,6 +111,15 @@ impl External {
             format!("`{program}` answered `{shown}`: {what}; accepted is {ACCEPTED}")
         })
     }
+}
+
+/// Ends a program that leads a group of processes, and all that it has started.
+fn end(leader: &mut Child) {
+    if let Some(group) = i32::try_from(leader.id()).ok().and_then(Pid::from_raw) {
+        let _ = kill_process_group(group, Signal::KILL);
+    }
+    let _ = leader.kill();
+    let _ = leader.wait();
 }
 
 /// The values of an answer.
