@@ -34,10 +34,6 @@ pub struct ContactLoads {
     pub contacts: Vec<ContactForce>,
     /// The smallest gap, within the range or not; `None` for one body without walls.
     pub minimum_gap: Option<MinimumGap>,
-    /// Impulse of contact on each body in the last step, as the backward difference has it: what changes its momentum (N s).
-    pub last_impulses: Vec<Vector3<f64>>,
-    /// Impulses so far (N s).
-    pub impulses: Vec<Vector3<f64>>,
     /// Energy stored in contact (J; J/m planar).
     pub energy: f64,
     /// Energy that errors of the steps have made in contact so far, less what they have lost (J; J/m planar).
@@ -45,26 +41,6 @@ pub struct ContactLoads {
 }
 
 impl ContactLoads {
-    /// The same after loads at the level before, with their impulses in a step between the two: `impulse` gives that of a
-    /// force at its end after the impulse of the step before.
-    #[must_use]
-    pub fn after(
-        mut self,
-        before: &Self,
-        impulse: impl Fn(Vector3<f64>, Vector3<f64>) -> Vector3<f64>,
-    ) -> Self {
-        let none = Vector3::zeros();
-        let of =
-            |impulses: &[Vector3<f64>], body: usize| impulses.get(body).copied().unwrap_or(none);
-        let loads = self.wrenches.iter().enumerate();
-        let impulses =
-            loads.map(|(body, load)| impulse(load.force, of(&before.last_impulses, body)));
-        self.last_impulses = impulses.collect();
-        let sums = self.last_impulses.iter().enumerate();
-        self.impulses = sums.map(|(body, last)| of(&before.impulses, body) + last).collect();
-        self
-    }
-
     /// No contact at all.
     #[must_use]
     pub fn none(n_bodies: usize) -> Self {

@@ -123,11 +123,7 @@ fn carry<const D: usize>(
     level: &NewLevel<D>,
     timing: &mut Timing,
 ) -> Result<Carried, StepError> {
-    let bdf = if state.last_step > 0.0 {
-        Bdf::second_order(level.step, state.last_step)
-    } else {
-        Bdf::first_order(level.step)
-    };
+    let bdf = Bdf::after(level.step, state.last_step);
     let levels = timing.measure(Stage::Solve, || scalars.advance(problem, state, level, &bdf));
     let levels =
         levels.map_err(|error| FlowError::from_solve(error.into(), state.step + 1, level.time))?;
@@ -191,6 +187,8 @@ impl<const D: usize> Simulation<D> {
             contact: law.as_ref(),
             stop: stop.as_ref(),
         };
+        let before = if scheme.method == Scheme::Bdf2 { state.last_step } else { 0.0 };
+        let bdf = Bdf::after(size, before);
         let StepResult { level, report } = match scheme.method {
             Scheme::Rk3 => {
                 // The first flow of a run knows nothing of contact
@@ -198,10 +196,7 @@ impl<const D: usize> Simulation<D> {
                 let rates_jump = state.last_step == 0.0 && !is_known;
                 stepper.advance_explicitly(work, state, size, rates_jump)?
             }
-            Scheme::Bdf2 if state.last_step > 0.0 => {
-                stepper.advance(work, state, Bdf::second_order(size, state.last_step))?
-            }
-            Scheme::Bdf2 | Scheme::Bdf1 => stepper.advance(work, state, Bdf::first_order(size))?,
+            Scheme::Bdf2 | Scheme::Bdf1 => stepper.advance(work, state, bdf)?,
         };
         let (error, contact_error) = (report.error, report.contact_error);
         if error > REJECTED * tolerance {
@@ -229,6 +224,7 @@ impl<const D: usize> Simulation<D> {
         work.system.mark_solver();
         self.is_fresh = false;
         self.record_drives(&report.loads)?;
+        self.record_forces(&report.loads, &bdf);
         Ok(report)
     }
 

@@ -21,7 +21,7 @@ pub use cycles::{CycleMeans, Cycles, Record};
 pub use energy::{EnergyBalance, EnergyRecord};
 pub use energy_supply::{Drives, EnergySupply, LoadHistory, LoadStep};
 pub use initial_levels::InitialLevels;
-pub use momentum::{MomentumBalance, MomentumRecord, Part};
+pub use momentum::{MomentumBalance, MomentumRecord};
 pub use new_level::{NewLevel, TransferredState};
 pub use propulsion_history::{PowerShare, PropulsionHistory, PropulsionStep};
 pub use saved_mesh::is_consistent;

@@ -257,6 +257,11 @@ impl<const D: usize> State<D> {
         self.0.energy.add(has_memory, record)
     }
 
+    /// Notes the forces (N) on the fluid and on the bodies at the end of the last step.
+    pub fn record_forces(&mut self, forces: &[Vector3<f64>], bdf: &Bdf) {
+        self.0.momentum.add_forces(forces, bdf);
+    }
+
     /// Adds to the balance of momentum; its defect.
     pub fn record_momentum(&mut self, record: MomentumRecord) -> f64 {
         self.0.momentum.add(record)

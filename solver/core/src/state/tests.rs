@@ -7,12 +7,13 @@ use nalgebra::Vector3;
 
 use super::{
     EnergyBalance, EnergyRecord, EnergySupply, ErrorOfChange, Evolving, LoadHistory,
-    MomentumBalance, MomentumRecord, Part, PropulsionHistory, SquaredError, State, StepErrors,
+    MomentumBalance, MomentumRecord, PropulsionHistory, SquaredError, State, StepErrors,
 };
 use crate::body::{Pose, Twist, Wrench};
 use crate::contact::{ContactLoads, MinimumGap, Partner};
 use crate::coupling::Solution;
 use crate::scalar::ScalarField;
+use crate::time::Bdf;
 use crate::tracer::{Cloud, Fate, Particle};
 
 /// A triangle with all that a mesh may have.
@@ -74,15 +75,11 @@ fn energy() -> EnergyBalance {
 fn momentum() -> MomentumBalance {
     let mut balance = MomentumBalance::default();
     for nth in 0..30 {
-        let part = |seed: f64| {
-            let [momentum, force, contact] =
-                [seed, -seed, 2.0 * seed].map(|seed| vectors(seed, 1)[0]);
-            Part { momentum, force, contact }
-        };
+        let seed = f64::from(nth);
+        balance.add_forces(&vectors(-seed, 2), &Bdf::first_order(1.0));
         balance.add(MomentumRecord {
-            time: f64::from(nth),
-            fluid: part(f64::from(nth)),
-            bodies: vec![part(f64::from(nth) + 0.5)],
+            time: seed,
+            momenta: vectors(seed, 2),
             exchange: 3.0,
             scale: 4.0,
         });
@@ -152,8 +149,6 @@ fn state() -> State<2> {
             ways: vec![ErrorOfChange { error: 0.125, change: 7.5 }],
         },
         contact: ContactLoads {
-            last_impulses: vec![Vector3::x()],
-            impulses: vec![Vector3::y()],
             energy: 0.5,
             energy_made: -0.01,
             wrenches: vec![Wrench { force: vectors(7.0, 1)[0], torque: vectors(7.5, 1)[0] }],

@@ -59,10 +59,7 @@ impl<const D: usize> StepContext<'_, D> {
             error = error.max(stepper.gap_error(gaps, state, poses, &errors));
         }
         let errors = self.step_errors(&flow.solution, poses);
-        let contact = flow
-            .contact
-            .after(&state.contact, |force, last| history.step.bdf.increment(force, last));
-        let mut contact = stepper.with_minimum_gap(contact, gaps, state, poses);
+        let mut contact = stepper.with_minimum_gap(flow.contact, gaps, state, poses);
         let end = StepEnd { gaps, solution: &flow.solution, reached: &reached, loads: &contact };
         let energy = self.contact_energy(configuration, &end);
         contact.energy = energy.stored;

@@ -38,6 +38,12 @@ impl Bdf {
         }
     }
 
+    /// Of second order after a step of a size (s), of first order where what was before does not count, after a size of zero.
+    #[must_use]
+    pub fn after(step: f64, before: f64) -> Self {
+        if before > 0.0 { Self::second_order(step, before) } else { Self::first_order(step) }
+    }
+
     /// The part of the rate known from older levels: a1 u_now + a2 u_previous.
     pub fn history<T>(&self, now: T, previous: T) -> T
     where

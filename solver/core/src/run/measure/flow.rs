@@ -86,7 +86,6 @@ impl FlowMeasurement {
     pub(super) fn fluid_momentum(&self, density: f64) -> FluidMomentum {
         FluidMomentum {
             momentum: self.momentum,
-            mean_force: self.mean_flow.map_or(Vector3::zeros(), |report| report.force),
             scale: density * (self.volume * self.squared_speed).sqrt(),
         }
     }

@@ -7,7 +7,7 @@ use crate::coupling::ShapeError;
 use crate::motion::RemeshError;
 
 /// Version of what is saved; others are refused.
-pub const VERSION: u32 = 13;
+pub const VERSION: u32 = 14;
 
 /// Why a run cannot resume from a state.
 #[derive(Debug, Error)]
