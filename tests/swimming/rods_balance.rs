@@ -208,3 +208,64 @@ fn several_rods_on_a_body_hold_it_by_their_bases() {
     figure!(off, "force on the head");
     assert!(off < 1e-6 && aside < 0.05, "{off} {aside}");
 }
+
+/// Where the tip of a cantilever of length and stiffness one is under a force across it and a moment there: by Runge-Kutta
+/// steps along it from the clamp, at which that curvature is sought with which the tip has the moment's.
+fn elastica(force: f64, moment: f64) -> [f64; 2] {
+    const STEPS: u32 = 400;
+    let rate = |[_, _, angle, bend]: [f64; 4]| {
+        let (sin, cos) = f64::sin_cos(angle);
+        [cos, sin, bend, -force * cos]
+    };
+    let h = 1.0 / f64::from(STEPS);
+    let away = |from: [f64; 4], by: [f64; 4], part: f64| -> [f64; 4] {
+        std::array::from_fn(|i| from[i] + by[i] * part)
+    };
+    let tip = |bend: f64| {
+        (0..STEPS).fold([0.0, 0.0, 0.0, bend], |at, _| {
+            let first = rate(at);
+            let second = rate(away(at, first, 0.5 * h));
+            let third = rate(away(at, second, 0.5 * h));
+            let last = rate(away(at, third, h));
+            std::array::from_fn(|i| {
+                at[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + last[i])
+            })
+        })
+    };
+    let [mut low, mut high] = [-10.0, 10.0];
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if tip(middle)[3] > moment { high = middle } else { low = middle }
+    }
+    let [x, y, ..] = tip(low);
+    [x, y]
+}
+
+/// What is given at the tip of a cantilever in a fluid at rest, in any direction and as a moment.
+#[test]
+fn loads_at_a_tip_bend_a_cantilever_as_far_as_the_elastica() {
+    let fluid = "model = \"stokes\", viscosity = 0.2";
+    for (force, moment) in [(0.8, 0.0), (0.0, 0.6), (-0.5, 0.7)] {
+        let body = format!(
+            "rod = {{ bending = 1.0, elements = 12, load.tip = {{ force = [{{ constant = 0.0 }}, \
+             {{ constant = {force} }}], moment.constant = {moment} }} }}\nattached.hold = \"clamped\""
+        );
+        let model = boxed(fluid, "step = 0.4, end = 14.0", &slender(&body));
+        let length = model.bodies[0].shape.profile().expect("it is slender").length();
+        let summary = run(&model);
+        let ends = |axis: &str| {
+            let all = column(&summary, &format!("rod.tip.{axis}"));
+            [all[0], all[all.len() - 1]]
+        };
+        let ([x, to_x], [y, to_y]) = (ends("x"), ends("y"));
+        // From the head at the right it goes on to the left, as if it were turned by half a turn
+        let of_theory = elastica(-force * length * length, moment * length);
+        let found = [(x + length - to_x) / length, (y - to_y) / length];
+        let off = (found[0] - of_theory[0]).hypot(found[1] - of_theory[1]);
+        figure!(off, "force {force}, moment {moment}");
+        assert!(off < 1e-3, "{found:?} {of_theory:?}");
+        let held = last(&summary, "rod.base_force.y") + last(&summary, "rod.force.y") + force;
+        assert!(held.abs() < 1e-8, "{held:e}");
+        assert!(last(&summary, "rod.end_power").abs() < 1e-4);
+    }
+}

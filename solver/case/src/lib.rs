@@ -46,7 +46,10 @@ pub use spec::body::motion::by_axis::{
 pub use spec::body::motion::inertia::InertiaSpec;
 pub use spec::body::motion::{ImposedMotion, LoadFrame, Lock, Motion};
 pub use spec::body::orientation::Orientation;
-pub use spec::body::rod::{Activation, AlongBody, Attached, Hold, RestShape, RodSpec};
+pub use spec::body::rod::{
+    Activation, AlongBody, Attached, EndLoadSpec, EndLoads, Hold, LoadedEnd, RestShape, RodEnd,
+    RodSpec,
+};
 pub use spec::body::spring::SpringSpec;
 pub use spec::body::squirmer::SquirmerGait;
 pub use spec::body::stroke::{Cycle, Stroke, smooth_ramp};

@@ -17,7 +17,7 @@ pub trait Structure: Send + Sync {
     /// Mass matrix M (n x n), symmetric and constant.
     fn mass(&self) -> DMatrix<f64>;
 
-    /// Inner forces f (n) at a time (s): elastic, active and of damping.
+    /// Inner forces f (n) at a time (s): elastic, active and of damping, less loads that are given at ends.
     fn forces(
         &self,
         coordinates: &DVector<f64>,
@@ -36,7 +36,7 @@ pub trait Structure: Send + Sync {
     /// Elastic energy (J, in planar problems per length), which has no part of what is active.
     fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64;
 
-    /// Power of activation and damping at a time (s); none of what has neither.
+    /// Power of activation, damping and loads at ends at a time (s); none of what has none of them.
     fn inner_power(
         &self,
         _coordinates: &DVector<f64>,
@@ -47,13 +47,15 @@ pub trait Structure: Send + Sync {
     }
 }
 
-/// Power within a structure at an instant (W, in planar problems per length).
+/// Power of what is part of a structure at an instant (W, in planar problems per length).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct InnerPower {
     /// Of active moments, and of rest curvatures that change: what muscles or motors give.
     pub activation: f64,
     /// What damping takes.
     pub dissipation: f64,
+    /// Of loads that are given at its ends.
+    pub ends: f64,
 }
 
 /// A structure with a surface, whose material points are named by their places at rest (m).
@@ -86,6 +88,11 @@ pub trait Flexible: Structure + std::fmt::Debug {
     /// The centre of the body, as a sum of weights times coordinates.
     fn center_weights(&self) -> Vec<Weight>;
 
+    /// The sum of the loads that are given at its ends at a time (s), which are part of its inner forces; seen as places are.
+    fn given_load(&self, _time: f64) -> GivenLoad {
+        GivenLoad::default()
+    }
+
     /// How its midline is bent, of bodies that have one.
     fn bend(&self, _coordinates: &DVector<f64>) -> Option<Bend> {
         None
@@ -108,6 +115,23 @@ pub trait Flexible: Structure + std::fmt::Debug {
     /// How far the centre has come since time zero (m).
     fn way_of_center(&self, coordinates: &DVector<f64>) -> Vector3<f64> {
         weighted(&self.center_weights(), &(coordinates - self.initial()))
+    }
+}
+
+/// Loads at the ends of a structure, each about its own end.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct GivenLoad {
+    /// Sum of the forces (N, in planar problems N/m).
+    pub force: Vector3<f64>,
+    /// Sum of the moments (N m, in planar problems N).
+    pub moment: Vector3<f64>,
+}
+
+impl GivenLoad {
+    /// How large it is (N), a moment as the force at a radius (m).
+    #[must_use]
+    pub fn size(&self, radius: f64) -> f64 {
+        self.force.norm() + self.moment.norm() / radius
     }
 }
 

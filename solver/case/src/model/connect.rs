@@ -4,8 +4,8 @@ use super::Model;
 use super::commands::Commands;
 use crate::spec::body::command::Command;
 use crate::{
-    Body, BoundaryCondition, DrivenLaw, GaitSpec, Hold, JointKind, MagneticSpec, Motion, Stroke,
-    TimeFunction,
+    Body, BoundaryCondition, DrivenLaw, EndLoadSpec, EndLoads, GaitSpec, Hold, JointKind,
+    MagneticSpec, Motion, Stroke, TimeFunction,
 };
 
 /// A command of a body or a side: what it is called there, the key below that of its owner, and the command.
@@ -174,6 +174,22 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
     for (name, stroke) in muscles {
         if let Some(command) = of_stroke(stroke) {
             found.push(("activation".to_owned(), format!("activation.{name}"), command));
+        }
+    }
+    for at_end in
+        body.rod.iter_mut().filter_map(|rod| rod.load.as_mut()).flat_map(EndLoads::ends_mut)
+    {
+        let EndLoadSpec { force, moment } = at_end.load;
+        let forces = force.iter_mut().zip(["x", "y"]).enumerate();
+        let forces = forces.map(|(axis, (stroke, name))| {
+            (format!("force.{name}"), format!("force.{axis}"), stroke)
+        });
+        let moment = moment.iter_mut().map(|stroke| ("moment".into(), "moment".into(), stroke));
+        for (name, key, stroke) in forces.chain(moment) {
+            if let Some(command) = of_stroke(Some(stroke)) {
+                let end = at_end.end.name();
+                found.push((format!("{end}.{name}"), format!("rod.load.{end}.{key}"), command));
+            }
         }
     }
     if let Some(Hold::Angle(angle)) = body.attached.as_mut().map(|attached| &mut attached.hold)

@@ -8,7 +8,7 @@ use alewife_mesh::{FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape,
 use crate::spec::body::given::polygon::box_corners;
 use crate::spec::body::solid_shape;
 use crate::spec::body::solid_shape::Measures;
-use crate::{Body, FishShape, Geometry, ShapeSpec};
+use crate::{Body, EndLoadSpec, EndLoads, FishShape, Geometry, LoadedEnd, ShapeSpec};
 
 /// Directions in which the width of a spline is measured.
 const DIRECTIONS: u32 = 90;
@@ -293,6 +293,12 @@ impl ShapeSpec {
 }
 
 impl Body {
+    /// The ends of a rod at which loads are given.
+    pub fn end_loads(&self) -> impl Iterator<Item = LoadedEnd<&EndLoadSpec>> {
+        let loads = self.rod.iter().filter_map(|rod| rod.load.as_ref());
+        loads.flat_map(EndLoads::ends)
+    }
+
     /// The body as a planar mesh sees it; its centre must have two numbers, which `check` makes sure.
     #[must_use]
     pub fn placed(&self, scale: f64) -> PlacedShape {

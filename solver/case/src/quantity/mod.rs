@@ -70,6 +70,7 @@ pub fn columns(model: &Model) -> Vec<Column> {
             Condition::Moment.holding_if(is_magnet),
             Condition::Rod.holding_if(body.rod.is_some()),
             Condition::Activation.holding_if(body.activation.is_some()),
+            Condition::EndLoad.holding_if(body.end_loads().next().is_some()),
             Condition::Attached.holding_if(body.attached.is_some()),
         ];
         let known: Vec<Condition> =

@@ -93,6 +93,8 @@ pub enum Condition {
     Rod,
     /// It is one with muscles or motors.
     Activation,
+    /// It is one with loads at its ends.
+    EndLoad,
     /// It is one whose head is attached.
     Attached,
     /// The tracers have a region.
@@ -132,6 +134,7 @@ impl Condition {
             Self::FieldGradient => "a [field](#field) of place",
             Self::Rod => "[`rod`](#bodies-that-bend-by-themselves)",
             Self::Activation => "[`activation`](#bodies-that-bend-by-themselves)",
+            Self::EndLoad => "[`rod.load`](#bodies-that-bend-by-themselves)",
             Self::Attached => "[`attached`](#bodies-that-bend-by-themselves)",
             Self::Region => "`region`",
             Self::Difference => "`difference`, bodies",

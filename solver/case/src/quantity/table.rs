@@ -81,6 +81,8 @@ quantities! {
             "Kinetic energy of the rod; 0 in `stokes`";
         ActivationPower: Scalar, "activation_power", "W (W/m)", [Activation],
             "Work of muscles or motors within the rod: of active moments, and of a rest curvature that changes";
+        EndPower: Scalar, "end_power", "W (W/m)", [EndLoad],
+            "Work of the loads that are given at the ends of the rod";
         InternalDissipation: Scalar, "internal_dissipation", "W (W/m)", [Rod],
             "What the damping of the rod takes";
         BaseForce: Vector, "base_force", "N (N/m)", [Attached],

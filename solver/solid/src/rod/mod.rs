@@ -29,7 +29,7 @@ pub use end::{End, Support};
 pub use error::RodError;
 pub use loads::{LineForce, Resistance};
 pub use planar::{
-    EndLoad, EndPose, PlanarRod, PlanarRodBody, RoundedStrip, SectionPoint, SectionRows,
+    EndLoad, EndPose, LoadedEnd, PlanarRod, PlanarRodBody, RoundedStrip, SectionPoint, SectionRows,
     SurfaceRows,
 };
 pub use properties::{Flexure, PlanarProperties, RodProperties, SpatialProperties};

@@ -159,7 +159,8 @@ fn rod_drives(body: &Body) -> bool {
     let acts = |stroke: &Stroke| moves(stroke) || stroke.at(0.0)[0] != 0.0;
     let active = body.activation.as_ref();
     let stroke = active.and_then(|active| active.curvature.as_ref().or(active.moment.as_ref()));
-    turns || stroke.is_some_and(acts)
+    let mut loads = body.end_loads().flat_map(|at| at.load.strokes());
+    turns || stroke.is_some_and(acts) || loads.any(acts)
 }
 
 /// Whether the spring of a body is not at rest at the start.

@@ -37,8 +37,10 @@ pub struct FlexibleReport {
     pub kinetic_energy: f64,
     /// Momentum (kg m/s), zero without inertia.
     pub momentum: Vector3<f64>,
-    /// Power of what is active and of damping within it (W).
+    /// Power of what is active, of damping and of loads at its ends (W).
     pub inner: InnerPower,
+    /// Force of loads that are given at its ends (N).
+    pub end_force: Vector3<f64>,
     /// What holds its base, if anything does.
     pub base: Option<BaseReport>,
 }
@@ -80,6 +82,7 @@ pub fn flexible_report<const D: usize>(
         kinetic_energy: 0.5 * rates.dot(&impulse),
         momentum: rigid.pose.to_world(&Vector3::from_fn(|axis, _| along(axis))),
         inner: flexible.inner_power(&at, &rates, now.time),
+        end_force: rigid.pose.to_world(&flexible.given_load(now.time).force),
         base: base.and_then(|base| body_at.base_report(&base, &outer, &rigid.pose)),
     })
 }

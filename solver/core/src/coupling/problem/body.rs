@@ -12,7 +12,7 @@ use super::lever::Lever;
 use super::magnet::Magnet;
 use crate::body::{Inertia, Mode, Pose, RigidVector, Twist, Wrench};
 use crate::gait::{DeformedOutline, Gait, ShapeMotion};
-use crate::structure::Flexible;
+use crate::structure::{Flexible, GivenLoad};
 
 /// What determines one rigid velocity of a body.
 pub enum Drive {
@@ -114,6 +114,12 @@ impl RigidBody {
             attachment: None,
             joint: None,
         }
+    }
+
+    /// The loads that are given at its ends at a time (s), in the frame of its coordinates; none of a rigid one.
+    #[must_use]
+    pub fn given_load_at_ends(&self, time: f64) -> GivenLoad {
+        self.flexible().map(|flexible| flexible.given_load(time)).unwrap_or_default()
     }
 
     /// The same body, free in all motions.

@@ -4,17 +4,17 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use alewife_mesh::Profile;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Rotation2, Vector2, Vector3};
 
 use crate::case::{
-    Activation, AlongBody, Body, Case, FlowModel, Hold, Model, RestShape, RodSpec, Stroke,
-    TimeSettings,
+    self, Activation, AlongBody, Body, Case, EndLoadSpec, FlowModel, Hold, Model, RestShape,
+    RodEnd, RodSpec, Stroke, TimeSettings,
 };
 use crate::coupling::{Attachment, BodyVector, OnBody, RigidBody};
 use crate::gait::{FlexibleShape, ShapeMotion};
 use crate::rod::{
-    Along, End, EndPose, Field, Flexure, PlanarProperties, PlanarRod, PlanarRodBody, RodProperties,
-    Section, Support, Supports, Varying,
+    Along, End, EndLoad, EndPose, Field, Flexure, LoadedEnd, PlanarProperties, PlanarRod,
+    PlanarRodBody, RodProperties, Section, Support, Supports, Varying,
 };
 use crate::run::RunError;
 
@@ -44,7 +44,9 @@ pub fn rod_shape(case: &Case, body: &Body) -> Result<Option<Arc<dyn ShapeMotion>
         Hold::Clamped | Hold::Hinged => 0.0,
     });
     let start = rod.curved(base.place, base.angle + turned, &steady_rest(spec));
-    let flexible = PlanarRodBody::new(rod, base, supports(body, base)).starting(start);
+    let flexible = PlanarRodBody::new(rod, base, supports(body, base))
+        .starting(start)
+        .with_loaded_ends(loaded_ends(body));
     Ok(Some(Arc::new(FlexibleShape::new(outline, Arc::new(flexible)))))
 }
 
@@ -61,6 +63,28 @@ fn supports(body: &Body, base: EndPose) -> Supports<EndPose> {
             EndPose { angle: base.angle + angle, angular_velocity, ..base }
         }),
     }
+}
+
+/// Loads at the ends, seen from the frame of the straight body as its coordinates are.
+fn loaded_ends(body: &Body) -> Vec<LoadedEnd> {
+    let turn = Rotation2::new(-body.angle);
+    let loaded = |at: case::LoadedEnd<&EndLoadSpec>| {
+        let EndLoadSpec { force, moment } = at.load.clone();
+        LoadedEnd {
+            end: match at.end {
+                RodEnd::Base => End::Base,
+                RodEnd::Tip => End::Tip,
+            },
+            load: Box::new(move |time| {
+                let along = |axis: usize| force.get(axis).map_or(0.0, |stroke| stroke.at(time)[0]);
+                EndLoad {
+                    force: turn * Vector2::new(along(0), along(1)),
+                    moment: moment.as_ref().map_or(0.0, |stroke| stroke.at(time)[0]),
+                }
+            }),
+        }
+    };
+    body.end_loads().map(loaded).collect()
 }
 
 fn properties(case: &Case, body: &Body, spec: &RodSpec, profile: &Profile) -> PlanarProperties {

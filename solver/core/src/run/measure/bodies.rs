@@ -162,6 +162,7 @@ impl BodyMotion<'_> {
             BodyQuantity::ElasticEnergy => self.of_rod(|rod| rod.energies.elastic_energy),
             BodyQuantity::KineticEnergy => self.of_rod(|rod| rod.energies.kinetic_energy),
             BodyQuantity::ActivationPower => self.of_rod(|rod| rod.energies.inner.activation),
+            BodyQuantity::EndPower => self.of_rod(|rod| rod.energies.inner.ends),
             BodyQuantity::InternalDissipation => self.of_rod(|rod| rod.energies.inner.dissipation),
             BodyQuantity::BaseForce => Value::of(self.base().map(|base| base.load.force)),
             BodyQuantity::BaseTorque => Value::of(self.base().map(|base| base.load.torque)),

@@ -81,6 +81,7 @@ fn body_momenta<const D: usize>(
     let of_body = |(body, rigid): (usize, &RigidBody)| {
         let external =
             rigid.external(state.time, &state.poses[body]).fixed_rows::<3>(0).into_owned();
+        let held = flexible.end_forces[body] + flexible.base_forces[body];
         let contact = state.contact.wrenches[body].force;
         // Forces in joints, springs and clamps in the laboratory are not known here
         let is_alone =
@@ -89,7 +90,7 @@ fn body_momenta<const D: usize>(
             |axis: usize| is_alone && matches!(rigid.drive(Mode::along(axis)), Drive::Free);
         BodyMomentum {
             momentum: state.now.twists[body].linear * rigid.inertia.mass + flexible.momenta[body],
-            force: loads.bodies[body].load.force + external + flexible.base_forces[body] + contact,
+            force: loads.bodies[body].load.force + external + held + contact,
             is_free: FreeAxes([0, 1, 2].map(is_free)),
         }
     };
@@ -100,6 +101,8 @@ fn body_momenta<const D: usize>(
 struct FlexibleBodies {
     /// Momenta (kg m/s), of rigid ones zero.
     momenta: Vec<Vector3<f64>>,
+    /// Forces that are given at their ends (N).
+    end_forces: Vec<Vector3<f64>>,
     /// Forces on bodies by bases that are attached to them, and on what has these bases (N).
     base_forces: Vec<Vector3<f64>>,
     /// Whether the laboratory holds a body by its base.
@@ -114,6 +117,7 @@ fn flexible_bodies<const D: usize>(
     let n = problem.bodies.len();
     let mut all = FlexibleBodies {
         momenta: vec![Vector3::zeros(); n],
+        end_forces: vec![Vector3::zeros(); n],
         base_forces: vec![Vector3::zeros(); n],
         is_clamped: vec![false; n],
     };
@@ -123,6 +127,7 @@ fn flexible_bodies<const D: usize>(
             continue;
         };
         all.momenta[body] = report.momentum;
+        all.end_forces[body] = report.end_force;
         match (&rigid.attachment, report.base) {
             (Some(attachment), Some(base)) => {
                 all.base_forces[body] += base.load.force;

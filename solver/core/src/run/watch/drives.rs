@@ -81,7 +81,7 @@ impl<const D: usize> Simulation<D> {
             let (twist, pose) = (state.now.twists[index].to_vector(), &state.poses[index]);
             let fluid = loads.bodies[index];
             if let Some(report) = flexible_report(problem, index, &flexible) {
-                power += supplied(report.inner.activation);
+                power += supplied(report.inner.activation) + supplied(report.inner.ends);
                 // What a body does whose energy is counted comes from it
                 let is_outer =
                     body.attachment.as_ref().is_none_or(|attachment| !counted[attachment.to]);
@@ -228,7 +228,8 @@ impl<const D: usize> Simulation<D> {
             let magnet = body.magnet.as_ref();
             let magnetic = magnet.map_or(0.0, |magnet| magnet.largest_torque(state.time, pose));
             let buoyant = body.buoyancy.map_or(0.0, |lever| lever.largest_torque());
-            let load = force + (torque + magnetic + buoyant) / radius + motor;
+            let ends = body.given_load_at_ends(state.time).size(radius);
+            let load = force + (torque + magnetic + buoyant) / radius + motor + ends;
             LoadStep { load, acceleration: load / mass }
         };
         problem.bodies.iter().zip(&state.poses).map(step).collect()

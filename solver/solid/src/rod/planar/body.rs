@@ -2,15 +2,16 @@
 
 use nalgebra::{DMatrix, DVector, Vector2, Vector3};
 
-use super::ends::EndPose;
+use super::ends::{EndLoad, EndPose};
+use super::loaded_end::LoadedEnd;
 use super::planar_rod::PlanarRod;
 use super::surface::{SectionPoint, SectionRows, SurfaceRows};
 use crate::rod::center::center_weights;
 use crate::rod::loads::LineForce;
 use crate::rod::supports::Supports;
 use crate::structure::{
-    BaseMotion, Bend, Flexible, Held, InnerPower, Load, SectionMotion, SectionWeight, Structure,
-    Tangents, Weight,
+    BaseMotion, Bend, Flexible, GivenLoad, Held, InnerPower, Load, SectionMotion, SectionWeight,
+    Structure, Tangents, Weight,
 };
 
 /// A planar rod as a body in a flow. Its material points are named by their places where the rod is straight.
@@ -22,6 +23,7 @@ pub struct PlanarRodBody {
     initial: DVector<f64>,
     supports: Supports<EndPose>,
     weight: Option<LineForce>,
+    ends: Vec<LoadedEnd>,
 }
 
 impl PlanarRodBody {
@@ -29,7 +31,7 @@ impl PlanarRodBody {
     #[must_use]
     pub fn new(rod: PlanarRod, base: EndPose, supports: Supports<EndPose>) -> Self {
         let initial = rod.straight(base.place, base.angle);
-        Self { rod, base, initial, supports, weight: None }
+        Self { rod, base, initial, supports, weight: None, ends: Vec::new() }
     }
 
     /// With other coordinates at the start.
@@ -42,6 +44,12 @@ impl PlanarRodBody {
     #[must_use]
     pub fn loaded(self, weight: LineForce) -> Self {
         Self { weight: Some(weight), ..self }
+    }
+
+    /// With loads at its ends.
+    #[must_use]
+    pub fn with_loaded_ends(self, ends: Vec<LoadedEnd>) -> Self {
+        Self { ends, ..self }
     }
 
     /// The rod.
@@ -81,11 +89,14 @@ impl Structure for PlanarRodBody {
         velocities: &DVector<f64>,
         time: f64,
     ) -> DVector<f64> {
-        let forces = self.rod.forces(coordinates, velocities, time);
-        match &self.weight {
-            Some(weight) => forces - weight.load(coordinates, velocities, time),
-            None => forces,
+        let mut forces = self.rod.forces(coordinates, velocities, time);
+        if let Some(weight) = &self.weight {
+            forces -= weight.load(coordinates, velocities, time);
         }
+        for end in &self.ends {
+            end.subtract(&self.rod, coordinates, time, &mut forces);
+        }
+        forces
     }
 
     fn tangents(
@@ -94,7 +105,11 @@ impl Structure for PlanarRodBody {
         velocities: &DVector<f64>,
         time: f64,
     ) -> Tangents {
-        self.rod.tangents(coordinates, velocities, time)
+        let mut tangents = self.rod.tangents(coordinates, velocities, time);
+        for end in &self.ends {
+            end.subtract_tangent(&self.rod, coordinates, time, &mut tangents.stiffness);
+        }
+        tangents
     }
 
     fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64 {
@@ -107,7 +122,9 @@ impl Structure for PlanarRodBody {
         velocities: &DVector<f64>,
         time: f64,
     ) -> InnerPower {
-        self.rod.inner_power(coordinates, velocities, time)
+        let power = |end: &LoadedEnd| end.power(&self.rod, coordinates, velocities, time);
+        let ends = self.ends.iter().map(power).sum();
+        InnerPower { ends, ..self.rod.inner_power(coordinates, velocities, time) }
     }
 }
 
@@ -150,6 +167,14 @@ impl Flexible for PlanarRodBody {
         let knots = self.rod.knots();
         let element = (coordinate / 4).min(knots.len() - 2);
         if coordinate % 4 < 2 { 1.0 } else { knots[element + 1] - knots[element] }
+    }
+
+    fn given_load(&self, time: f64) -> GivenLoad {
+        let loads = self.ends.iter().map(|end| (end.load)(time));
+        loads.fold(GivenLoad::default(), |sum, EndLoad { force, moment }| GivenLoad {
+            force: sum.force + force.push(0.0),
+            moment: sum.moment + Vector3::z() * moment,
+        })
     }
 
     fn center_weights(&self) -> Vec<Weight> {

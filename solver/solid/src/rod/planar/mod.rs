@@ -2,10 +2,12 @@
 
 mod body;
 mod ends;
+mod loaded_end;
 mod planar_rod;
 mod surface;
 
 pub use body::PlanarRodBody;
 pub use ends::{EndLoad, EndPose};
+pub use loaded_end::LoadedEnd;
 pub use planar_rod::PlanarRod;
 pub use surface::{RoundedStrip, SectionPoint, SectionRows, SurfaceRows};

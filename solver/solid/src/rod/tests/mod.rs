@@ -4,6 +4,7 @@ mod active;
 mod body;
 mod common;
 mod derivatives;
+mod ends;
 mod motion;
 mod properties;
 mod resistive;

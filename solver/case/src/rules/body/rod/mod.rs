@@ -3,6 +3,7 @@
 mod activation;
 mod attached;
 pub(in crate::rules) mod beside;
+mod end_load;
 mod slender;
 
 use self::slender::{Slender, rises_along, too_sharp};
@@ -35,6 +36,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     beside::check(findings, key, body);
     stiffness(findings, &format!("{key}.rod"), rod, body_of);
     rest(findings, &format!("{key}.rod.rest"), rod, body_of);
+    end_load::check(findings, &format!("{key}.rod.load"), body);
     if let Some(attached) = &body.attached {
         attached::check(findings, &format!("{key}.attached"), body, attached, body_of.length);
         if let Hold::Angle(angle) = &attached.hold {
@@ -209,6 +211,30 @@ name = 'b'
                 "rod.rest.table",
             ),
             (fish("rod = { bending = 1.0, elements = 100000 }"), "rod.elements"),
+            (fish("rod = { bending = 1.0, load = {} }"), "rod.load"),
+            (fish("rod = { bending = 1.0, load.tip = {} }"), "rod.load.tip"),
+            (
+                fish("rod = { bending = 1.0, load.tip.force = [{ constant = 1.0 }] }"),
+                "rod.load.tip.force",
+            ),
+            (
+                fish(
+                    "rod = { bending = 1.0, load.tip.moment.sine = { amplitude = 1.0, period = -1.0 } }",
+                ),
+                "rod.load.tip.moment.sine.period",
+            ),
+            (
+                fish(
+                    "rod = { bending = 1.0, load.base.moment.constant = 1.0 }\nattached.hold = 'clamped'",
+                ),
+                "rod.load.base.moment",
+            ),
+            (
+                fish(
+                    "rod = { bending = 1.0, load.base.force = [{ constant = 1.0 }, { constant = 0.0 }] }\nattached.hold = 'hinged'",
+                ),
+                "rod.load.base.force",
+            ),
             (rod("gait.carangiform.period = 1.0"), "gait"),
             (rod("locked = ['x']"), "locked"),
             (rod("torque = 1.0"), "torque"),

@@ -1,11 +1,14 @@
 //! `rod`, `attached` and `activation`: slender bodies that bend as their elasticity and their muscles let them.
 
+mod end_loads;
+
 use std::fmt;
 
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
+pub use self::end_loads::{EndLoadSpec, EndLoads, LoadedEnd, RodEnd};
 use super::stroke::Stroke;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, Positive};
@@ -38,6 +41,9 @@ pub struct RodSpec {
     /// Shape without loads; straight if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rest: Option<RestShape>,
+    /// Forces and moments that are given at its ends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<EndLoads>,
 }
 
 /// `rest`: the shape of a rod without loads.

@@ -1,0 +1,74 @@
+//! Problems of `rod.load`: loads that are none, or that what holds an end takes.
+
+use crate::rules::Findings;
+use crate::rules::body::joints::stroke as numbers_of_stroke;
+use crate::{Body, EndLoadSpec, Hold, LoadedEnd, RodEnd};
+
+/// Components of a force in the plane.
+const COMPONENTS: usize = 2;
+
+/// Loads at the ends of a rod.
+pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    let is_given = body.rod.as_ref().is_some_and(|rod| rod.load.is_some());
+    if is_given && body.end_loads().next().is_none() {
+        findings.error(
+            key,
+            "a load needs the end at which it acts".to_owned(),
+            "write load.tip = { ... } or load.base = { ... }, or leave `load` out",
+        );
+    }
+    for LoadedEnd { end, load } in body.end_loads() {
+        let key = format!("{key}.{}", end.name());
+        numbers(findings, &key, load);
+        if end == RodEnd::Base {
+            held(findings, &key, body, load);
+        }
+    }
+}
+
+fn numbers(findings: &mut Findings<'_>, key: &str, load: &EndLoadSpec) {
+    let EndLoadSpec { force, moment } = load;
+    if load.strokes().next().is_none() {
+        findings.error(
+            key,
+            "there is neither a `force` nor a `moment`".to_owned(),
+            "write force = [{ constant = ... }, { constant = ... }] (N; N/m planar) or moment.constant = ... (N m; N planar)",
+        );
+    } else if !force.is_empty() && force.len() != COMPONENTS {
+        findings.error(
+            &format!("{key}.force"),
+            format!(
+                "a force in the plane has {COMPONENTS} components, and here are {}",
+                force.len()
+            ),
+            "write force = [{ constant = ... }, { constant = ... }], along x and y",
+        );
+    }
+    for (axis, stroke) in force.iter().enumerate() {
+        numbers_of_stroke(findings, &format!("{key}.force.{axis}"), stroke);
+    }
+    if let Some(moment) = moment {
+        numbers_of_stroke(findings, &format!("{key}.moment"), moment);
+    }
+}
+
+/// What holds the head takes the loads there.
+fn held(findings: &mut Findings<'_>, key: &str, body: &Body, load: &EndLoadSpec) {
+    let Some(attached) = &body.attached else { return };
+    let turns = attached.hold == Hold::Hinged;
+    for (name, is_taken) in
+        [("force", !load.force.is_empty()), ("moment", load.moment.is_some() && !turns)]
+    {
+        if is_taken {
+            findings.error(
+                &format!("{key}.{name}"),
+                format!("what holds the head of \"{}\" takes a {name} there", body.name),
+                if turns {
+                    "give a moment, or a load at the tip, or leave it out"
+                } else {
+                    "give a load at the tip, or leave it out"
+                },
+            );
+        }
+    }
+}
