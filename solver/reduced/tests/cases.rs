@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use alewife_case::soft::search::ObjectiveSpec;
 use alewife_case::soft::{SoftFile, check};
 use alewife_reduced::search::Sought as _;
 use alewife_reduced::tier::{
@@ -124,13 +125,29 @@ fn derivatives_by_every_key_are_those_of_differences() {
     let model = Model::<2>::new(&file).expect("it is a body");
     let optimisation = file.case.optimisation.as_ref().expect("it has one").objective.clone();
     let way_per_work =
-        alewife_case::soft::search::ObjectiveSpec::WayPerWork { direction: vec![1.0, 0.5] };
+        ObjectiveSpec::WayPerWork { direction: vec![1.0, 0.5], standing_power: 0.0, after: None };
+    let tapered = ObjectiveSpec::WayPerWork {
+        direction: vec![1.0, 0.5],
+        standing_power: 0.3,
+        after: Some(0.13),
+    };
     let recorded = model.recorded.clone().expect("it has a record").displacements;
     let calibration = Kind::Calibration(model.markers(recorded));
-    for kind in [calibration, Kind::Optimisation(optimisation), Kind::Optimisation(way_per_work)] {
+    let objectives = [optimisation, way_per_work, tapered].map(Kind::Optimisation);
+    for kind in [calibration].into_iter().chain(objectives) {
         let mut seeker = Seeker { model: model.clone(), sought: sought.clone(), kind };
         let start: Vec<f64> = sought.bounded.iter().map(|one| one.start).collect();
         let found = seeker.evaluate(&start).expect("it moves");
+        if let Kind::Optimisation(objective) = &seeker.kind {
+            // The same by frames, as the series has it
+            let mut model = seeker.model.clone();
+            let own = model.case.optimisation.as_mut().expect("it has one");
+            own.objective = objective.clone();
+            let motion = model.body.simulate(&model.plan).expect("it moves");
+            let table = series(&model, &motion).expect("it has a series");
+            let last = table.last("objective").expect("it is a column");
+            assert!((last / -found.objective - 1.0).abs() < 1e-9, "{last} {}", found.objective);
+        }
         let scale = |k: usize| keys[k].2;
         let largest =
             (0..keys.len()).map(|k| (found.slopes[k] * scale(k)).abs()).fold(0.0, f64::max);
@@ -169,7 +186,8 @@ fn energy_put_in_by_the_fibres_is_what_there_is_and_what_was_lost() {
     let last = |name: &str| table.last(name).expect("it is a column");
     let there = last("energy.kinetic") + last("energy.elastic");
     assert!((there / last("work") - 1.0).abs() < 0.02, "{there} {}", last("work"));
-    assert!((model.body.work(&model.plan, &motion) / last("work") - 1.0).abs() < 1e-12);
+    let all = vec![1.0; model.plan.targets.len()];
+    assert!((model.body.work(&model.plan, &motion, &all) / last("work") - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -299,6 +317,19 @@ fn wrong_cases_and_records_are_refused_with_key_line_and_remedy() {
             good.clone(),
             "robot.set.solid.0.material.yong",
             "case.toml:58:27",
+        ),
+        (
+            changed("cost_of_work = 0.01", "after = 0.4"),
+            good.clone(),
+            "optimisation.objective.travel.after",
+            "write at most 0.32, 4 frames before the end",
+        ),
+        (
+            changed("objective.travel]", "objective.way-per-work]")
+                .replace("cost_of_work = 0.01", "standing_power = -1.0"),
+            good.clone(),
+            "optimisation.objective.way-per-work.standing_power",
+            "write 0 or a number above it",
         ),
         (
             changed("young = 4e4", "young = nan"),

@@ -148,7 +148,8 @@ fn derivatives_by_keys_are_those_of_differences() {
     let sought = Sought::new(&file.case, &parameters);
     let start: Vec<f64> = sought.bounded.iter().map(|one| one.start).collect();
     let model = Model::<2>::new(&file).expect("it is a body");
-    let objective = ObjectiveSpec::Travel { direction: vec![0.2, 1.0], cost_of_work: 0.1 };
+    let objective =
+        ObjectiveSpec::Travel { direction: vec![0.2, 1.0], cost_of_work: 0.1, after: None };
     let mut seeker = Seeker { model, sought, kind: Kind::Optimisation(objective) };
     let found = seeker.evaluate(&start).expect("it moves").slopes;
     let largest = (0..keys.len()).map(|k| (found[k] * keys[k].1).abs()).fold(0.0, f64::max);

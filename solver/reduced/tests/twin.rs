@@ -93,7 +93,12 @@ fn identify(model: &mut SoftBody<2>, plan: &Plan, seen: &Markers) -> Found {
 }
 
 fn travel(body: &SoftBody<2>, plan: &Plan) -> Travel {
-    Travel { n_steps: plan.n_steps(), nodes: marked(body), direction: vec![1.0, 0.0] }
+    Travel {
+        shares: vec![1.0; plan.targets.len()],
+        substeps: plan.substeps,
+        nodes: marked(body),
+        direction: vec![1.0, 0.0],
+    }
 }
 
 /// How far a body swims (m).

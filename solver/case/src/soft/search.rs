@@ -47,11 +47,24 @@ pub enum ObjectiveSpec {
         #[serde(default)]
         #[cfg_attr(test, schemars(with = "NonNegative"))]
         cost_of_work: f64,
+        /// Time (s) from which on way and work count, as means that are tapered to both ends: the way from there on is
+        /// the mean velocity times the time that is left. All of the motion counts alike if absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
+        after: Option<f64>,
     },
     /// That way over the work that the commands put into the fibres (m/J).
     WayPerWork {
         /// The direction.
         direction: Vec<f64>,
+        /// Power (W) that is spent whatever the body does: its work is added to that of the commands.
+        #[serde(default)]
+        #[cfg_attr(test, schemars(with = "NonNegative"))]
+        standing_power: f64,
+        /// Time (s) from which on way and work count, as in `travel`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(test, schemars(with = "Option<NonNegative>"))]
+        after: Option<f64>,
     },
 }
 
@@ -60,8 +73,32 @@ impl ObjectiveSpec {
     #[must_use]
     pub fn direction(&self) -> &[f64] {
         match self {
-            Self::Travel { direction, .. } | Self::WayPerWork { direction } => direction,
+            Self::Travel { direction, .. } | Self::WayPerWork { direction, .. } => direction,
         }
+    }
+
+    /// The time (s) from which on way and work count.
+    #[must_use]
+    pub fn after(&self) -> Option<f64> {
+        match self {
+            Self::Travel { after, .. } | Self::WayPerWork { after, .. } => *after,
+        }
+    }
+
+    /// What each of so many frames (s) counts in way and work: 1, or from a time on its share in means that are tapered to
+    /// both ends, by the square of a sine, times the number of frames from then on. Such means of a motion that repeats
+    /// itself hardly depend on the phase at which they begin and end.
+    #[must_use]
+    pub fn shares(&self, n_frames: usize, frame: f64) -> Vec<f64> {
+        let Some(after) = self.after() else { return vec![1.0; n_frames] };
+        let left = n_frames as f64 * frame - after;
+        let share = |number: usize| {
+            let part = ((number as f64 + 0.5) * frame - after) / left;
+            if part > 0.0 { (std::f64::consts::PI * part).sin().powi(2) } else { 0.0 }
+        };
+        let shares: Vec<f64> = (0..n_frames).map(share).collect();
+        let factor = left / frame / shares.iter().sum::<f64>();
+        shares.into_iter().map(|share| factor * share).collect()
     }
 }
 

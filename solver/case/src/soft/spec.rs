@@ -66,7 +66,9 @@ impl SoftCase {
             let velocities = axes.iter().map(move |axis| format!("{name}.velocity.{axis}"));
             places.chain(velocities).collect::<Vec<_>>()
         };
-        let of_body = ["energy.kinetic", "energy.elastic", "work"].map(str::to_owned);
+        let of_body = ["energy.kinetic", "energy.elastic", "work"];
+        let sought = self.optimisation.iter().map(|_| "objective");
+        let of_body = of_body.into_iter().chain(sought).map(str::to_owned);
         self.marker.iter().flat_map(of_marker).chain(of_body).collect()
     }
 }
@@ -76,7 +78,7 @@ impl SoftCase {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SoftVariant {
-    /// Name; `alewife run CASE/NAME --fidelity soft` runs it.
+    /// Name; `alewife run CASE/NAME` runs it.
     pub name: String,
     /// Keys to set, written as on the command line: `"solid.0.material.young" = 2e4`.
     #[serde(default)]

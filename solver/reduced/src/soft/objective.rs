@@ -98,16 +98,30 @@ impl Objective for Markers {
     }
 }
 
-/// How far (m) nodes are from rest at the end, on average along a direction, with the sign that makes a long way
-/// a small number.
+/// How far (m) nodes get, on average along a direction, with the sign that makes a long way a small number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Travel {
-    /// Steps of the motion.
-    pub n_steps: usize,
+    /// What the way of each frame counts.
+    pub shares: Vec<f64>,
+    /// Steps of a frame.
+    pub substeps: usize,
     /// Nodes that count.
     pub nodes: Vec<usize>,
     /// The direction, D numbers.
     pub direction: Vec<f64>,
+}
+
+impl Travel {
+    /// The way (m) of the nodes from places to others, all components each, on average along the direction.
+    #[must_use]
+    pub fn way(&self, from: &[f64], to: &[f64]) -> f64 {
+        let along = |node: &usize| -> f64 {
+            let first = self.direction.len() * node;
+            let axes = self.direction.iter().enumerate();
+            axes.map(|(axis, along)| along * (to[first + axis] - from[first + axis])).sum()
+        };
+        self.nodes.iter().map(along).sum::<f64>() / self.nodes.len() as f64
+    }
 }
 
 impl Objective for Travel {
@@ -120,8 +134,11 @@ impl Objective for Travel {
         by_rest: &mut [f64],
     ) -> f64 {
         let mut sum = 0.0;
-        if number == self.n_steps {
-            let weight = 1.0 / self.nodes.len() as f64;
+        // The sum of ways of steps, by the places between them; the start is at rest
+        let share = |step: usize| self.shares.get(step / self.substeps).copied().unwrap_or(0.0);
+        let counts = number.checked_sub(1).map_or(0.0, |before| share(before) - share(number));
+        if counts != 0.0 {
+            let weight = counts / self.nodes.len() as f64;
             for node in &self.nodes {
                 for (axis, along) in self.direction.iter().enumerate() {
                     let component = self.direction.len() * node + axis;

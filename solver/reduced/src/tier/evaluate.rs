@@ -1,7 +1,7 @@
 //! `Seeker`: what a calibration or an optimisation of a soft case makes small, with its gradient.
 
 use crate::search::{Evaluated, Sought as Objective};
-use crate::soft::{Markers, Seeds, SoftError, Trajectory};
+use crate::soft::{Markers, Plan, Seeds, SoftError, Trajectory};
 
 use super::mesh::{Bodies, SolidOf};
 use super::model::Model;
@@ -38,18 +38,24 @@ pub struct WayAndWork {
 }
 
 /// What is made large, and its derivatives.
-struct MadeLarge {
-    value: f64,
+pub(super) struct MadeLarge {
+    pub(super) value: f64,
     by_way: f64,
     by_work: f64,
 }
 
-fn made_large(spec: &ObjectiveSpec, WayAndWork { way, work }: WayAndWork) -> MadeLarge {
+/// What is made large by way and work in a time (s).
+pub(super) fn made_large(
+    spec: &ObjectiveSpec,
+    time: f64,
+    WayAndWork { way, work }: WayAndWork,
+) -> MadeLarge {
     match spec {
         ObjectiveSpec::Travel { cost_of_work, .. } => {
             MadeLarge { value: way - cost_of_work * work, by_way: 1.0, by_work: -cost_of_work }
         }
-        ObjectiveSpec::WayPerWork { .. } => {
+        ObjectiveSpec::WayPerWork { standing_power, .. } => {
+            let work = work + standing_power * time;
             MadeLarge { value: way / work, by_way: 1.0 / work, by_work: -way / (work * work) }
         }
     }
@@ -67,10 +73,17 @@ where
 {
     /// Way and work of a motion.
     #[must_use]
-    pub fn way_and_work(&self, direction: &[f64], motion: &Trajectory) -> WayAndWork {
+    pub fn way_and_work(&self, objective: &ObjectiveSpec, motion: &Trajectory) -> WayAndWork {
         let Model { body, plan, .. } = &self.model;
-        let way = -body.value(motion, &self.model.travel(direction));
-        WayAndWork { way, work: Bodies::work(body, plan, motion) }
+        let way = -body.value(motion, &self.model.travel(objective));
+        WayAndWork { way, work: Bodies::work(body, plan, motion, &self.model.shares(objective)) }
+    }
+
+    /// What is made large, of a motion, and its derivatives by way and work.
+    fn made_large(&self, objective: &ObjectiveSpec, motion: &Trajectory) -> MadeLarge {
+        let Plan { frame, targets, .. } = &self.model.plan;
+        let time = frame * targets.len() as f64 - objective.after().unwrap_or(0.0);
+        made_large(objective, time, self.way_and_work(objective, motion))
     }
 
     /// The objective of the model as it is: a loss, or what is made large.
@@ -82,9 +95,7 @@ where
         let motion = Bodies::simulate(body, plan)?;
         Ok(match &self.kind {
             Kind::Calibration(markers) => body.value(&motion, markers),
-            Kind::Optimisation(objective) => {
-                made_large(objective, self.way_and_work(objective.direction(), &motion)).value
-            }
+            Kind::Optimisation(objective) => self.made_large(objective, &motion).value,
         })
     }
 
@@ -98,12 +109,11 @@ where
                 Begun { objective, seeds }
             }
             Kind::Optimisation(objective) => {
-                let direction = objective.direction();
-                let MadeLarge { value, by_way, by_work } =
-                    made_large(objective, self.way_and_work(direction, motion));
+                let MadeLarge { value, by_way, by_work } = self.made_large(objective, motion);
                 // Travel is the way with its sign turned, and what is made small the objective with its
-                body.add_seeds(motion, &self.model.travel(direction), by_way, &mut seeds);
-                Bodies::add_work_seeds(body, plan, motion, -by_work, &mut seeds);
+                body.add_seeds(motion, &self.model.travel(objective), by_way, &mut seeds);
+                let shares = self.model.shares(objective);
+                Bodies::add_work_seeds(body, plan, motion, &shares, -by_work, &mut seeds);
                 Begun { objective: -value, seeds }
             }
         }

@@ -153,7 +153,7 @@ where
         self.seeker.set(&best.values).ok()?;
         let Model { body, plan, .. } = &self.seeker.model;
         let motion = Bodies::simulate(body, plan).ok()?;
-        Some(self.seeker.way_and_work(objective.direction(), &motion))
+        Some(self.seeker.way_and_work(&objective, &motion))
     }
 
     /// A quantity of what was found.

@@ -43,13 +43,14 @@ pub trait SolidOf<const D: usize> {
     ) -> Result<Gradient, SoftError>;
 
     /// Work (J) put into the fibres in a motion, as [`SoftBody::work`] has it.
-    fn work(body: &SoftBody<D>, plan: &Plan, motion: &Trajectory) -> f64;
+    fn work(body: &SoftBody<D>, plan: &Plan, motion: &Trajectory, shares: &[f64]) -> f64;
 
     /// The same; a multiple of its derivatives is added to those there are.
     fn add_work_seeds(
         body: &SoftBody<D>,
         plan: &Plan,
         motion: &Trajectory,
+        shares: &[f64],
         factor: f64,
         seeds: &mut Seeds,
     ) -> f64;
@@ -90,18 +91,19 @@ impl SolidOf<2> for Bodies {
         body.gradient(plan, motion, seeds, false)
     }
 
-    fn work(body: &SoftBody<2>, plan: &Plan, motion: &Trajectory) -> f64 {
-        body.work(plan, motion)
+    fn work(body: &SoftBody<2>, plan: &Plan, motion: &Trajectory, shares: &[f64]) -> f64 {
+        body.work(plan, motion, shares)
     }
 
     fn add_work_seeds(
         body: &SoftBody<2>,
         plan: &Plan,
         motion: &Trajectory,
+        shares: &[f64],
         factor: f64,
         seeds: &mut Seeds,
     ) -> f64 {
-        body.add_work_seeds(plan, motion, factor, seeds)
+        body.add_work_seeds(plan, motion, shares, factor, seeds)
     }
 }
 
@@ -141,18 +143,19 @@ impl SolidOf<3> for Bodies {
         body.gradient(plan, motion, seeds, false)
     }
 
-    fn work(body: &SoftBody<3>, plan: &Plan, motion: &Trajectory) -> f64 {
-        body.work(plan, motion)
+    fn work(body: &SoftBody<3>, plan: &Plan, motion: &Trajectory, shares: &[f64]) -> f64 {
+        body.work(plan, motion, shares)
     }
 
     fn add_work_seeds(
         body: &SoftBody<3>,
         plan: &Plan,
         motion: &Trajectory,
+        shares: &[f64],
         factor: f64,
         seeds: &mut Seeds,
     ) -> f64 {
-        body.add_work_seeds(plan, motion, factor, seeds)
+        body.add_work_seeds(plan, motion, shares, factor, seeds)
     }
 }
 

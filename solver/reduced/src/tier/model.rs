@@ -9,6 +9,7 @@ use super::mesh::{Bodies, SolidOf};
 use super::record::{Recorded, recorded};
 use super::{mesh, solid};
 use alewife_case::Diagnostic;
+use alewife_case::soft::search::ObjectiveSpec;
 use alewife_case::soft::solid::Stretch;
 use alewife_case::soft::spec::{SoftCase, SoftScheme};
 use alewife_case::soft::{ParameterKey, SoftFile, check};
@@ -148,12 +149,20 @@ where
         }
     }
 
-    /// The way of the markers along a direction, with the sign that makes a long way a small number.
+    /// What each frame counts in way and work.
     #[must_use]
-    pub fn travel(&self, direction: &[f64]) -> Travel {
+    pub fn shares(&self, objective: &ObjectiveSpec) -> Vec<f64> {
+        objective.shares(self.plan.targets.len(), self.plan.frame)
+    }
+
+    /// The way of the markers along the direction of an objective, with the sign that makes a long way a small number.
+    #[must_use]
+    pub fn travel(&self, objective: &ObjectiveSpec) -> Travel {
+        let direction = objective.direction();
         let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         Travel {
-            n_steps: self.plan.n_steps(),
+            shares: self.shares(objective),
+            substeps: self.plan.substeps,
             nodes: self.nodes.clone(),
             direction: direction.iter().map(|x| x / length).collect(),
         }

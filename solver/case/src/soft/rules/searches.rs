@@ -5,6 +5,12 @@ use crate::soft::ParameterKey;
 use crate::soft::search::{ObjectiveSpec, Parameter, SearchSettings};
 use crate::soft::spec::ReferenceOf;
 
+/// Frames that a mean is taken of at least: with fewer a taper is hardly more than one of them.
+const FEWEST_FRAMES: usize = 4;
+
+/// Part of a frame that a time may be off by rounding.
+const ROUNDING: f64 = 1e-6;
+
 pub fn check(mistakes: &mut Mistakes<'_>) {
     let case = mistakes.case().clone();
     if let Some(calibration) = &case.calibration {
@@ -23,8 +29,15 @@ pub fn check(mistakes: &mut Mistakes<'_>) {
                 mistakes.not_negative(key, *cost_of_work);
                 "travel"
             }
-            ObjectiveSpec::WayPerWork { .. } => "way-per-work",
+            ObjectiveSpec::WayPerWork { standing_power, .. } => {
+                let key = "optimisation.objective.way-per-work.standing_power";
+                mistakes.not_negative(key, *standing_power);
+                "way-per-work"
+            }
         };
+        if let Some(after) = optimisation.objective.after() {
+            counted(mistakes, &format!("optimisation.objective.{kind}.after"), after);
+        }
         let key = format!("optimisation.objective.{kind}.direction");
         mistakes.direction(&key, optimisation.objective.direction());
         if case.marker.is_empty() {
@@ -46,6 +59,22 @@ pub fn check(mistakes: &mut Mistakes<'_>) {
         }
     }
     references(mistakes);
+}
+
+/// A time from which on a motion counts: frames have to be left, or there is no mean.
+fn counted(mistakes: &mut Mistakes<'_>, key: &str, after: f64) {
+    mistakes.not_negative(key, after);
+    let soft = &mistakes.case().soft;
+    let end = soft.frame * soft.frames as f64;
+    let last = soft.frame * soft.frames.saturating_sub(FEWEST_FRAMES) as f64;
+    if after > last + ROUNDING * soft.frame {
+        let message = format!("`{key}` is {after}, and the motion ends at {end}");
+        let help = format!(
+            "write at most {last}, {FEWEST_FRAMES} frames before the end, better some periods of the fibres; or \
+             more soft.frames"
+        );
+        mistakes.add(key, message, &help);
+    }
 }
 
 fn settings(mistakes: &mut Mistakes<'_>, key: &str, search: &SearchSettings) {
