@@ -1,5 +1,7 @@
 //! The mesh of a soft body, from a grid, an outline, a shape of the program or a file.
 
+mod curved;
+
 use std::f64::consts::FRAC_PI_2;
 
 use alewife_mesh::{
@@ -8,6 +10,7 @@ use alewife_mesh::{
 };
 use alewife_solid::solid::{Order, SolidError, SolidMesh};
 
+use self::curved::curved;
 use super::surface::inside_of_surface;
 use crate::soft::{Gradient, Plan, Seeds, SoftBody, SoftError, Trajectory};
 use alewife_case::soft::SoftFile;
@@ -70,12 +73,16 @@ impl SolidOf<2> for Bodies {
                 SolidMesh::<2>::of_grid([grid.cells[0], grid.cells[1]], |at| place(grid, at));
             return meshed(file, "solid.0.grid", mesh, solid.order);
         }
-        let (key, triangles) = match &solid.outline {
-            Some(outline) => ("solid.0.outline.points", inside(file, solid, outline)?),
-            None => ("solid.0.shape", inside_of_shape(file, solid)?),
+        let meshed = |key: &str, triangles: Triangles| {
+            let all = triangles.cells.iter().map(|cell| cell.to_vec()).collect();
+            cells(file, key, (triangles.points, all), solid.order)
         };
-        let all = triangles.cells.iter().map(|cell| cell.to_vec()).collect();
-        cells(file, key, (triangles.points, all), solid.order)
+        if let Some(outline) = &solid.outline {
+            return meshed("solid.0.outline.points", inside(file, solid, outline)?);
+        }
+        let outline = outline_of_shape(file, solid)?;
+        let mesh = meshed("solid.0.shape", inside_of_shape(file, solid, &outline)?)?;
+        Ok(curved(mesh, &outline))
     }
 
     fn simulate(body: &SoftBody<2>, plan: &Plan) -> Result<Trajectory, SoftError> {
@@ -213,11 +220,10 @@ fn inside(
     })
 }
 
-/// Triangles inside of a shape of the plane.
-fn inside_of_shape(file: &SoftFile, solid: &SoftSolid) -> Result<Triangles, Diagnostic> {
+/// The outline of a shape of the plane.
+fn outline_of_shape(file: &SoftFile, solid: &SoftSolid) -> Result<Outline, Diagnostic> {
     let refused = |said: String| file.error("solid.0.shape", said, "change the shape");
     let Some(shape) = &solid.shape else { return Err(refused("there is no shape".to_owned())) };
-    let size = solid.size.unwrap_or(f64::INFINITY);
     let placed = PlacedShape {
         name: solid.name.clone(),
         shape: shape.outline(),
@@ -225,9 +231,19 @@ fn inside_of_shape(file: &SoftFile, solid: &SoftSolid) -> Result<Triangles, Diag
         angle: 0.0,
         size: solid.size,
     };
-    let outline = Outline::new(&placed).map_err(|error| refused(error.to_string()))?;
-    let corners = points_of_outline(&outline, size);
-    triangulate_inside(&corners, 2.0 * FRAC_PI_2 * size).map_err(|error| refused(error.to_string()))
+    Outline::new(&placed).map_err(|error| refused(error.to_string()))
+}
+
+/// Triangles inside of it.
+fn inside_of_shape(
+    file: &SoftFile,
+    solid: &SoftSolid,
+    outline: &Outline,
+) -> Result<Triangles, Diagnostic> {
+    let size = solid.size.unwrap_or(f64::INFINITY);
+    let corners = points_of_outline(outline, size);
+    triangulate_inside(&corners, 2.0 * FRAC_PI_2 * size)
+        .map_err(|error| file.error("solid.0.shape", error.to_string(), "change the shape"))
 }
 
 /// The place (m) of a point of a grid by its numbers along the axes.
