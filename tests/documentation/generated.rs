@@ -55,7 +55,7 @@ fn the_gallery_shows_every_case() {
         let file = SoftFile::read(name, &[]).unwrap_or_else(|error| panic!("{name}\n{error}"));
         let title = &file.case.title;
         write!(page, "\n## {name}\n\n[{title}](../cases/{name}/README.md): ").unwrap();
-        writeln!(page, "`alewife run {name} --fidelity soft`").unwrap();
+        writeln!(page, "`alewife run {name}`").unwrap();
         let picture = format!("pictures/{name}.png");
         if root().join("docs").join(&picture).is_file() {
             writeln!(page, "\n![picture]({picture})").unwrap();

@@ -30,7 +30,7 @@ pub fn facts(file: &CaseFile) -> String {
     line("geometry", units);
     line("fluid", fluid(case));
     if case.is_reduced_only() {
-        line("domain", "none: run it with --fidelity reduced".to_owned());
+        line("domain", "none: it runs by its reduced model".to_owned());
     } else {
         line("domain", domain(case));
         let sides = case.sides().into_iter().filter(|side| *side != "axis").map(|side| {

@@ -2,11 +2,13 @@
 
 use clap::ValueEnum;
 
+use crate::case::Case;
+use crate::case::soft::SoftFile;
+
 /// Models of a swimmer, the dearest first.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Fidelity {
     /// The full solver: flow on a mesh that follows the bodies
-    #[default]
     Ale,
     /// An elastic body without a flow, under loads facet by facet
     Soft,
@@ -15,6 +17,18 @@ pub enum Fidelity {
 }
 
 impl Fidelity {
+    /// The full solver, or the one model that a case without a flow has. What is wrong with a case says who runs it.
+    pub fn of(case: &str, settings: &[String]) -> Self {
+        if matches!(SoftFile::read_if_soft(case, settings), Ok(Some(_))) {
+            return Self::Soft;
+        }
+        match Case::read(case, settings) {
+            // One of the two tables that only a flow has may have been forgotten
+            Ok(file) if file.case().left_out.len() > 1 => Self::Reduced,
+            _ => Self::Ale,
+        }
+    }
+
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {

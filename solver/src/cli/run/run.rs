@@ -44,9 +44,9 @@ pub struct Options {
     case: String,
     #[command(flatten)]
     settings: Settings,
-    /// Which model of the swimmer is run
-    #[arg(long, value_name = "MODEL", default_value_t, value_enum)]
-    fidelity: Fidelity,
+    /// Which model of the swimmer is run; by default the full solver, or the only model of a case without a flow
+    #[arg(long, value_name = "MODEL", value_enum)]
+    fidelity: Option<Fidelity>,
     /// Directory of the run; `runs/<case>` if absent
     #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
@@ -98,7 +98,12 @@ pub struct Options {
 impl Options {
     /// Whether the full solver runs, which sees to signals itself.
     pub fn is_of_flow(&self) -> bool {
-        self.fidelity == Fidelity::Ale
+        self.model() == Fidelity::Ale
+    }
+
+    /// The model that is run.
+    fn model(&self) -> Fidelity {
+        self.fidelity.unwrap_or_else(|| Fidelity::of(&self.case, &self.settings.set))
     }
 
     /// The run that is asked for.
@@ -150,8 +155,7 @@ impl Options {
             words.extend(value.into_iter().flat_map(|value| [format!("--{name}"), value]));
         };
         self.settings.set.iter().for_each(|setting| option("set", Some(setting.clone())));
-        let is_other = self.fidelity != Fidelity::default();
-        option("fidelity", is_other.then(|| self.fidelity.name().to_owned()));
+        option("fidelity", self.fidelity.map(|model| model.name().to_owned()));
         option("out", self.out.as_ref().map(|out| out.display().to_string()));
         option("replay", self.replay.as_ref().map(|file| file.display().to_string()));
         option("threads", self.threads.map(|threads| threads.to_string()));
@@ -172,7 +176,11 @@ impl Options {
 
 /// Runs a case by the model that is asked for.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    match options.fidelity {
+    let model = options.model();
+    if options.fidelity.is_none() && model != Fidelity::Ale && !options.quiet {
+        say(&format!("a case without a flow: --fidelity {}", model.name()));
+    }
+    match model {
         Fidelity::Ale => run_flow(options),
         Fidelity::Soft => run_soft(options),
         Fidelity::Reduced => reduced::run(&options.reduced()),
