@@ -81,8 +81,8 @@ pub use spec::given_mesh::region_spec::{NamedSolid, RegionSpec, SidePart};
 pub use spec::initial::InitialFlow;
 pub use spec::mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use spec::optimisation::{
-    FlowObjective, FlowOptimisation, FlowParameter, NamedQuantity, ObjectiveExpression,
-    OptimumReference, SearchSettings, WeightedQuantity,
+    Bound, FlowConstraint, FlowObjective, FlowOptimisation, FlowParameter, Limit, NamedQuantity,
+    ObjectiveExpression, OptimumReference, SearchSettings, WeightedQuantity,
 };
 pub use spec::output::{Cadence, Checkpoints, Output, Precision, Probe};
 pub use spec::profile::{ColumnAxis, ProfileColumn, ProfileSpec};

@@ -1,5 +1,6 @@
 //! Searches for the numbers of a steady flow that make an objective large, by its gradients.
 
+mod constraints;
 mod error;
 mod numbers;
 mod objective;
@@ -7,6 +8,7 @@ mod optimum;
 mod rounds;
 mod sought;
 
+pub use constraints::Held;
 pub use error::OptimiseError;
 pub use optimum::{Compared, Optimum};
 pub use rounds::{FlowSearch, RoundProgress};

@@ -24,12 +24,13 @@ pub struct Objectively {
 const STEP: f64 = 1e-5;
 
 impl Objective {
-    /// That of a case that defines these numbers.
-    pub fn new(spec: &FlowObjective, define: &Definitions) -> Self {
+    /// That of a case that defines these numbers; of further quantities it does not depend.
+    pub fn new(spec: &FlowObjective, define: &Definitions, further: &[String]) -> Self {
         let mut quantities: Vec<String> = Vec::new();
-        for part in spec.quantities() {
-            if !quantities.iter().any(|known| known == part.quantity) {
-                quantities.push(part.quantity.to_owned());
+        let own = spec.quantities().into_iter().map(|part| part.quantity.to_owned());
+        for quantity in own.chain(further.iter().cloned()) {
+            if !quantities.contains(&quantity) {
+                quantities.push(quantity);
             }
         }
         Self { spec: spec.clone(), define: define.clone(), quantities }
@@ -99,7 +100,7 @@ mod tests {
             term("b.power", 1.0),
             term("a.power", 0.5),
         ]);
-        let found = Objective::new(&sum, &define).at(&[4.0, 5.0], &[1.0, 1.0]).unwrap();
+        let found = Objective::new(&sum, &define, &[]).at(&[4.0, 5.0], &[1.0, 1.0]).unwrap();
         assert_eq!(found, Objectively { value: -1.0, by: vec![-1.5, 1.0] });
         let quantities = [("u", "a.velocity.x"), ("p", "a.power"), ("w", "a.velocity.x")];
         let expression = FlowObjective::Expression(ObjectiveExpression {
@@ -109,7 +110,7 @@ mod tests {
                 .into_iter()
                 .collect::<BTreeMap<_, _>>(),
         });
-        let objective = Objective::new(&expression, &define);
+        let objective = Objective::new(&expression, &define, &["a.power".to_owned()]);
         assert_eq!(objective.quantities, ["a.power", "a.velocity.x"]);
         let found = objective.at(&[2.0, 4.0], &[2.0, 4.0]).unwrap();
         assert_eq!(found.value, 24.0);

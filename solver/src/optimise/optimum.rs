@@ -9,6 +9,7 @@ use alewife_reduced::search::{
 };
 use serde_json::{Value, json};
 
+use super::constraints::Held;
 use crate::case::{CaseFile, MeshFile, OptimumReference};
 
 /// What a search of a steady flow came to.
@@ -16,7 +17,14 @@ use crate::case::{CaseFile, MeshFile, OptimumReference};
 pub struct Optimum {
     /// The case with the numbers that were found.
     pub file: CaseFile,
-    /// The best of the last round, and all evaluations; what is made small is the objective with its sign turned.
+    /// The objective at the best.
+    pub objective: f64,
+    /// The same where the search started.
+    pub objective_at_start: f64,
+    /// What was held, at the best.
+    pub held: Vec<Held>,
+    /// The best of the last round, and all evaluations; what is made small is the objective with its sign turned, and what
+    /// it costs to be off what is held.
     pub found: Found,
     /// Number of rounds.
     pub n_rounds: usize,
@@ -59,7 +67,10 @@ impl Optimum {
     /// What was found, by its name.
     fn value(&self, name: &str) -> f64 {
         if name == "objective" {
-            return -self.found.best.objective;
+            return self.objective;
+        }
+        if let Some(held) = self.held.iter().find(|held| held.name == name) {
+            return held.value;
         }
         let number = self.bounded.iter().position(|one| one.name == name);
         let quantity = self.names.iter().position(|one| one == name);
@@ -72,14 +83,13 @@ impl Optimum {
     /// The report, as it is printed.
     #[must_use]
     pub fn text(&self) -> String {
-        let Found { best, all, ended } = &self.found;
-        let first = all.first().map_or(f64::NAN, |first| first.objective);
+        let Found { all, ended, .. } = &self.found;
         let mut text = format!(
             "optimisation after {} evaluations in {} rounds: objective {:.6e}, {:.6e} at the start; {}\n",
             all.len(),
             self.n_rounds,
-            -best.objective,
-            -first,
+            self.objective,
+            self.objective_at_start,
             ended.text()
         );
         let width = self.names.iter().map(String::len).max().unwrap_or(0);
@@ -87,25 +97,27 @@ impl Optimum {
         for (name, (value, start)) in self.names.iter().zip(values) {
             let _ = writeln!(text, "  {name:<width$}  {value:.6e}  from {start:.4e}");
         }
+        self.held.iter().for_each(|held| text += &held.line());
         text + &number_lines(&self.bounded, &self.found, &self.certainties)
     }
 
     /// The report as JSON.
     #[must_use]
     pub fn to_json(&self) -> Value {
-        let Found { best, all, ended } = &self.found;
+        let Found { all, ended, .. } = &self.found;
         let quantities =
             self.names.iter().zip(self.quantities.iter().zip(&self.quantities_at_start));
         let quantities = quantities
             .map(|(name, (value, start))| json!({ "name": name, "value": value, "start": start }));
         json!({
             "search": "optimisation",
-            "objective": -best.objective,
-            "start": all.first().map(|first| -first.objective),
+            "objective": self.objective,
+            "start": self.objective_at_start,
             "evaluations": all.len(),
             "rounds": self.n_rounds,
             "ended": ended.word(),
             "quantities": quantities.collect::<Vec<_>>(),
+            "constraints": self.held.iter().map(Held::to_json).collect::<Vec<_>>(),
             "parameters": numbers_to_json(&self.bounded, &self.found, &self.certainties),
             "comparison": self.compared().iter().map(Compared::to_json).collect::<Vec<_>>(),
         })

@@ -10,6 +10,7 @@ use alewife_reduced::search::{
     Bounded, Ended, Evaluated, Found, Progress, Search, SearchError, certainties, search,
 };
 
+use super::constraints::{Held, Multipliers};
 use super::error::OptimiseError;
 use super::numbers::Numbers;
 use super::objective::Objective;
@@ -18,8 +19,9 @@ use super::sought::OnOneMesh;
 use crate::case::{CaseError, CaseFile, Diagnostic, FlowOptimisation, Severity};
 use crate::gradient::Derivatives;
 
-/// Rounds at most.
+/// Rounds at most, and those of a search that holds something: each of them corrects a multiplier.
 const MOST_ROUNDS: usize = 10;
+const MOST_ROUNDS_WITH_HELD: usize = 20;
 
 /// Way of a round, in scales or logarithms of the numbers, after which the mesh is as good as one of the best.
 const NEAR: f64 = 0.01;
@@ -53,6 +55,8 @@ struct Rounds<'a> {
     last: Found,
     /// Quantities where the first round began.
     at_start: Vec<Derivatives>,
+    /// The objective where the first round began, as it is made small.
+    objective_at_start: f64,
     /// The mesh of the last round.
     sought: OnOneMesh<'a>,
     /// Number of rounds.
@@ -78,7 +82,8 @@ impl FlowSearch {
         };
         let numbers = Numbers::new(file);
         numbers.check_bounds()?;
-        let objective = Objective::new(&spec.objective, &file.case().define);
+        let held = Multipliers::quantities(&spec.constraint);
+        let objective = Objective::new(&spec.objective, &file.case().define, &held);
         Ok(Self { file: file.clone(), spec, numbers, objective })
     }
 
@@ -93,14 +98,18 @@ impl FlowSearch {
         told: &mut dyn FnMut(&RoundProgress),
     ) -> Result<Optimum, OptimiseError> {
         let bounded = self.numbers.bounded();
-        let Rounds { all, last, at_start, mut sought, n } =
+        let Rounds { all, last, at_start, objective_at_start, mut sought, n } =
             self.rounds(directory, &bounded, told)?;
         let rise = RISE * last.best.objective.abs();
         let certainties = certainties(&bounded, &last.best, rise, &mut sought);
         check_whole().map_err(SearchError::from)?;
         let quantities = sought.quantities(&last.best.values)?;
         let values = |of: &[Derivatives]| of.iter().map(|one| one.value).collect();
+        let best = sought.objective(&last.best.values).map_err(SearchError::Start)?;
         Ok(Optimum {
+            objective: -best.objective,
+            objective_at_start: -objective_at_start,
+            held: sought.held(&last.best.values)?,
             file: self.numbers.case(&last.best.values)?,
             found: Found { all, ..last },
             n_rounds: n,
@@ -124,13 +133,21 @@ impl FlowSearch {
         let mut bounded = bounded.to_vec();
         let mut all: Vec<Evaluated> = Vec::new();
         let mut at_start = Vec::new();
+        let mut objective_at_start = f64::NAN;
         let mut way_before = f64::INFINITY;
-        for round in 1..=MOST_ROUNDS {
+        let held = &self.spec.constraint;
+        let mut multipliers = Multipliers::new(held, 1.0);
+        let most_rounds = if held.is_empty() { MOST_ROUNDS } else { MOST_ROUNDS_WITH_HELD };
+        for round in 1..=most_rounds {
             let start: Vec<f64> = bounded.iter().map(|one| one.start).collect();
-            let mut sought = OnOneMesh::new(&self.numbers, &self.objective, &start);
+            let mut sought = OnOneMesh::new(&self.numbers, &self.objective, &multipliers, &start);
             if round == 1 {
                 // Why there is no flow is told as it is elsewhere, before there is a journal
                 at_start = sought.quantities(&start)?;
+                objective_at_start =
+                    sought.objective(&start).map_err(SearchError::Start)?.objective;
+                multipliers = Multipliers::new(held, objective_at_start.abs());
+                sought.hold(&multipliers);
             }
             let used = all.len();
             let mut tell = |progress: &Progress| {
@@ -143,12 +160,16 @@ impl FlowSearch {
             let way = way(&bounded, &start, &last.best.values);
             // Ways that do not fall are from what one mesh differs by from another
             let is_near = way < NEAR || (last.ended == Ended::Converged && way > 0.5 * way_before);
-            let is_left = all.len() < most && round < MOST_ROUNDS;
+            let is_left = all.len() < most && round < most_rounds;
             // A method that fails where no flow has failed has met what its mesh is too coarse for
             let may_go_on = last.ended != Ended::Evaluations && sought.failure.is_none();
-            if is_near || !is_left || !may_go_on {
-                return Ok(Rounds { all, last, at_start, sought, n: round });
+            let held = sought.held(&last.best.values)?;
+            let is_done = is_near && held.iter().all(Held::is_met);
+            if is_done || !is_left || !may_go_on {
+                let n = round;
+                return Ok(Rounds { all, last, at_start, objective_at_start, sought, n });
             }
+            multipliers.correct(&held);
             way_before = way;
             for (one, value) in bounded.iter_mut().zip(&last.best.values) {
                 one.start = *value;

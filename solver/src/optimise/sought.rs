@@ -2,6 +2,7 @@
 
 use alewife_reduced::search::{Evaluated, Sought};
 
+use super::constraints::{Held, Multipliers};
 use super::numbers::Numbers;
 use super::objective::Objective;
 use crate::gradient::{Derivatives, FlowByNumbers, GradientError, NumberedCase};
@@ -10,6 +11,7 @@ use crate::gradient::{Derivatives, FlowByNumbers, GradientError, NumberedCase};
 pub struct OnOneMesh<'a> {
     numbers: &'a Numbers,
     objective: &'a Objective,
+    multipliers: Multipliers,
     start: Vec<f64>,
     /// Made when it is first needed: a search that goes on may know all of a round.
     flows: Option<FlowByNumbers>,
@@ -26,16 +28,27 @@ struct Known {
 }
 
 impl<'a> OnOneMesh<'a> {
-    /// On the mesh of the case with these values.
-    pub fn new(numbers: &'a Numbers, objective: &'a Objective, start: &[f64]) -> Self {
+    /// On the mesh of the case with these values, with these multipliers of what is held.
+    pub fn new(
+        numbers: &'a Numbers,
+        objective: &'a Objective,
+        multipliers: &Multipliers,
+        start: &[f64],
+    ) -> Self {
         Self {
             numbers,
             objective,
+            multipliers: multipliers.clone(),
             start: start.to_vec(),
             flows: None,
             known: Vec::new(),
             failure: None,
         }
+    }
+
+    /// Takes other multipliers of what is held.
+    pub fn hold(&mut self, multipliers: &Multipliers) {
+        self.multipliers = multipliers.clone();
     }
 
     /// The quantities of the objective at values.
@@ -61,8 +74,14 @@ impl<'a> OnOneMesh<'a> {
         Ok(quantities)
     }
 
-    /// The objective at values, and its derivatives by them.
-    fn objective(&mut self, values: &[f64]) -> Result<Evaluated, String> {
+    /// What is held, at values.
+    pub fn held(&mut self, values: &[f64]) -> Result<Vec<Held>, GradientError> {
+        let quantities = self.quantities(values)?;
+        Ok(self.multipliers.held(self.numbers, values, &quantities)?)
+    }
+
+    /// The objective at values, and its derivatives by them: without what is held.
+    pub fn objective(&mut self, values: &[f64]) -> Result<Evaluated, String> {
         let quantities = self.quantities(values).map_err(|error| error.to_string())?;
         let [own, sizes]: [Vec<f64>; 2] =
             [|one: &Derivatives| one.value, |one: &Derivatives| one.size]
@@ -79,11 +98,19 @@ impl<'a> OnOneMesh<'a> {
         // A search makes small what it is given
         Ok(Evaluated { values: values.to_vec(), objective: -found.value, slopes })
     }
+
+    /// The objective at values with what is held.
+    fn with_held(&mut self, values: &[f64]) -> Result<Evaluated, String> {
+        let mut found = self.objective(values)?;
+        let held = self.held(values).map_err(|error| error.to_string())?;
+        self.multipliers.add(&held, &mut found);
+        Ok(found)
+    }
 }
 
 impl Sought for OnOneMesh<'_> {
     fn evaluate(&mut self, values: &[f64]) -> Result<Evaluated, String> {
-        let found = self.objective(values);
+        let found = self.with_held(values);
         self.failure = found.as_ref().err().cloned();
         found
     }

@@ -11,7 +11,7 @@ use super::soft::{self, SearchOptions, not_written, prepare, progress_line};
 use super::style::{complain, say};
 use crate::case::soft::SoftFile;
 use crate::case::{CaseFile, printable};
-use crate::optimise::{Compared, FlowSearch, OptimiseError, RoundProgress};
+use crate::optimise::{Compared, FlowSearch, Held, OptimiseError, RoundProgress};
 
 /// The file that is written last.
 const LAST: &str = "report.json";
@@ -48,6 +48,11 @@ pub fn optimise(options: &SearchOptions) -> Result<Exit, Failure> {
             let message =
                 "nothing depends on the numbers that are sought: other ones, or another objective";
             Err(Failure::new(Exit::BadCase, message))
+        }
+        _ if !optimum.held.iter().all(Held::is_met) => {
+            let message = "a constraint is not met: the best point is written; more `evaluations`, other bounds, or a \
+                           value that can be met";
+            Err(Failure::new(Exit::Diverged, message))
         }
         _ if compared.iter().all(Compared::is_within) => Ok(Exit::Done),
         _ => Ok(Exit::OutsideTolerance),

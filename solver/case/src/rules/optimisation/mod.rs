@@ -1,16 +1,17 @@
 //! Problems of `[optimisation]`: what is made large, by which numbers, and what the optimum is compared with.
 
 mod constant;
+mod constraints;
+mod known;
 mod parameters;
 
 use self::constant::check_constant;
+use self::known::check_known;
 use super::Findings;
-use super::references::check_quantity;
-use crate::quantity::{differentiable_columns, known_quantities};
 use crate::read::CaseFile;
 use crate::spec::formula::mistake_in_name;
 use crate::text::nearest::nearest;
-use crate::{FlowObjective, FlowOptimisation, ObjectiveExpression, TimeSettings};
+use crate::{FlowConstraint, FlowObjective, FlowOptimisation, ObjectiveExpression, TimeSettings};
 
 pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
     let Some(spec) = &findings.case().optimisation else { return };
@@ -23,6 +24,7 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
     }
     check_objective(findings, &spec.objective);
     parameters::check(findings, file, spec);
+    constraints::check(findings, spec);
     if spec.search.evaluations == 0 {
         let key = "optimisation.search.evaluations";
         findings.error(key, format!("`{key}` is 0"), "write 1 or more");
@@ -32,26 +34,8 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
 
 /// Whether gradients are known of all quantities.
 fn check_objective(findings: &mut Findings<'_>, objective: &FlowObjective) {
-    let known = known_quantities(findings.model());
-    let columns = differentiable_columns(findings.model());
-    let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
     for part in objective.quantities() {
-        let key = format!("optimisation.objective.{}", part.key);
-        if names.contains(&part.quantity) {
-            continue;
-        }
-        if !known.iter().any(|name| name == part.quantity) {
-            check_quantity(findings, &key, part.quantity, &known);
-            continue;
-        }
-        findings.error(
-            &key,
-            format!("the gradient of `{}` is not known", part.quantity),
-            &format!(
-                "gradients are those of loads, powers and velocities of bodies and swimmers: {}",
-                names.join(", ")
-            ),
-        );
+        check_known(findings, &format!("optimisation.objective.{}", part.key), part.quantity);
     }
     if let FlowObjective::Expression(expression) = objective {
         check_expression(findings, expression);
@@ -78,6 +62,7 @@ fn check_references(findings: &mut Findings<'_>, file: &CaseFile, spec: &FlowOpt
     let mut known: Vec<String> = vec!["objective".to_owned()];
     known.extend(file.sought().into_iter().map(|number| number.name));
     known.extend(spec.objective.quantities().iter().map(|part| part.quantity.to_owned()));
+    known.extend(spec.constraint.iter().map(FlowConstraint::name));
     for (index, reference) in spec.reference.iter().enumerate() {
         let at = format!("optimisation.reference.{index}");
         if !known.contains(&reference.quantity) {

@@ -106,3 +106,29 @@ fn references_are_those_of_an_optimum() {
     refuses("relative = 0.01", "relative = 0.01\nabsolute = 1.0", &["no single tolerance"]);
     refuses("Oberbeck's drag", "", &["where its value is from"]);
 }
+
+#[test]
+fn what_is_held_is_a_quantity_or_a_volume_at_one_value() {
+    let with = |lines: &str| {
+        let table = "[optimisation.search]";
+        said(table, &format!("[[optimisation.constraint]]\n{lines}\n{table}"))
+    };
+    assert_eq!(with("volume = \"spheroid\"\nequals = 4.2"), "");
+    assert_eq!(with("quantity = \"spheroid.power\"\nat_most = 4.2\ntolerance = 1e-3"), "");
+    for (lines, parts) in [
+        ("equals = 4.2", ["holds nothing", "volume = \"BODY\""]),
+        (
+            "volume = \"spheroid\"\nquantity = \"spheroid.power\"\nequals = 1.0",
+            ["two things", "one of"],
+        ),
+        ("volume = \"speroid\"\nequals = 4.2", ["no body `speroid`", "did you mean `spheroid`"]),
+        ("quantity = \"spheroid.x\"\nequals = 4.2", ["gradient of `spheroid.x`", "spheroid.power"]),
+        ("volume = \"spheroid\"", ["has 0 of three values", "at_most"]),
+        ("volume = \"spheroid\"\nequals = 1.0\nat_least = 2.0", ["has 2 of three", "case.toml:"]),
+        ("volume = \"spheroid\"\nequals = 0.0", ["held at 0", "above 0"]),
+        ("volume = \"spheroid\"\nequals = 1.0\ntolerance = 0.0", ["tolerance", "case.toml:"]),
+    ] {
+        let found = with(lines);
+        assert!(parts.iter().all(|part| found.contains(part)), "{lines}: {found}");
+    }
+}

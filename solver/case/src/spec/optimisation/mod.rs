@@ -1,5 +1,6 @@
 //! `[optimisation]` of a steady flow: which numbers a search changes, and what it makes large.
 
+mod constraint;
 mod search;
 
 use std::collections::BTreeMap;
@@ -10,6 +11,7 @@ use crate::ReferenceKind;
 #[cfg(test)]
 use crate::spec::number::{NonZero, Positive};
 
+pub use self::constraint::{Bound, FlowConstraint, Limit};
 pub use self::search::SearchSettings;
 
 /// `[optimisation]`: numbers of the case that make an objective large, which `alewife optimise` finds.
@@ -21,6 +23,9 @@ pub struct FlowOptimisation {
     pub objective: FlowObjective,
     /// The numbers.
     pub parameter: Vec<FlowParameter>,
+    /// What is held meanwhile.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub constraint: Vec<FlowConstraint>,
     /// How the search ends.
     #[serde(default)]
     pub search: SearchSettings,
