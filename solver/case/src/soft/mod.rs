@@ -9,5 +9,5 @@ pub mod spec;
 
 pub use parameters::{KeyError, ParameterKey};
 pub(crate) use read::is_soft;
-pub use read::{BesideFile, SoftFile, schema};
+pub use read::{BesideFile, OnlyModel, SoftFile, schema};
 pub use rules::check;

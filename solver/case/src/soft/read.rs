@@ -49,6 +49,33 @@ pub(crate) fn is_soft(root: &TomlNode) -> bool {
     root.get("soft").is_some_and(|table| table.table().is_some())
 }
 
+/// The only model of a case that has no flow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OnlyModel {
+    /// An elastic body.
+    Soft,
+    /// A tree of rigid links.
+    Reduced,
+}
+
+impl OnlyModel {
+    /// That of a case, by the tables it has: no file that it names is read. None where there is a flow, where one of the
+    /// two tables that only a flow has may have been forgotten, or where the case cannot be read.
+    #[must_use]
+    pub fn of(argument: &str, settings: &[String]) -> Option<Self> {
+        let Located { text, variant } = locate(argument).ok()?;
+        let root = UntypedCase::assemble(&text, variant, settings).ok()?.root;
+        let is_left_out = |table: &str| root.get(table).is_none();
+        match () {
+            () if is_soft(&root) => Some(Self::Soft),
+            () if is_left_out("domain") && is_left_out("mesh") && !is_left_out("reduced") => {
+                Some(Self::Reduced)
+            }
+            () => None,
+        }
+    }
+}
+
 impl SoftFile {
     /// Reads a soft case: a path to a TOML file, the name of a shipped case, or either followed by `/VARIANT`; then
     /// sets `KEY=VALUE` for each of `settings`. None where it is a case of the full solver.

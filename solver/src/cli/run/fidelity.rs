@@ -2,8 +2,7 @@
 
 use clap::ValueEnum;
 
-use crate::case::Case;
-use crate::case::soft::SoftFile;
+use crate::case::soft::OnlyModel;
 
 /// Models of a swimmer, the dearest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -19,13 +18,10 @@ pub enum Fidelity {
 impl Fidelity {
     /// The full solver, or the one model that a case without a flow has. What is wrong with a case says who runs it.
     pub fn of(case: &str, settings: &[String]) -> Self {
-        if matches!(SoftFile::read_if_soft(case, settings), Ok(Some(_))) {
-            return Self::Soft;
-        }
-        match Case::read(case, settings) {
-            // One of the two tables that only a flow has may have been forgotten
-            Ok(file) if file.case().left_out.len() > 1 => Self::Reduced,
-            _ => Self::Ale,
+        match OnlyModel::of(case, settings) {
+            Some(OnlyModel::Soft) => Self::Soft,
+            Some(OnlyModel::Reduced) => Self::Reduced,
+            None => Self::Ale,
         }
     }
 
