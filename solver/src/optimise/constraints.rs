@@ -17,6 +17,10 @@ const LEFT: f64 = 0.25;
 /// Factor by which the weight grows.
 const GROWTH: f64 = 4.0;
 
+/// Ratio of something to its value from which on it is counted by its logarithm: what is far too small pulls as what is
+/// far too large does. Below, where signs may differ, the logarithm goes on along its tangent.
+const SMALLEST_RATIO: f64 = 1e-3;
+
 /// Part of the size of a number by which it is changed, for the change of a volume.
 const STEP: f64 = 1e-4;
 
@@ -33,7 +37,7 @@ pub struct Held {
     pub at: f64,
     /// How far it may be off, over the size of its value.
     pub tolerance: f64,
-    /// How far it is beyond the value, over its size; below 0 within.
+    /// How far it is beyond the value: the logarithm of its ratio to that, so near it the part of it; below 0 within.
     pub off: f64,
     /// The derivatives of that by the numbers.
     slopes: Vec<f64>,
@@ -46,7 +50,8 @@ impl Held {
         let Self { name, value, at, tolerance, .. } = self;
         let verdict = if self.is_met() { "met" } else { "NOT met" };
         let bound = self.bound.name();
-        format!("  {name} {value:.6e} {verdict}: {bound} {at:.6e}, to {tolerance:.1e} of it\n")
+        let of_what = if *at == 0.0 { "" } else { " of it" };
+        format!("  {name} {value:.6e} {verdict}: {bound} {at:.6e}, to {tolerance:.1e}{of_what}\n")
     }
 
     /// As JSON.
@@ -117,16 +122,16 @@ impl Multipliers {
             // `check` refuses one without a value
             let none = Limit { bound: Bound::Equals, value: f64::NAN };
             let Limit { bound, value: at } = constraint.limit().unwrap_or(none);
-            let size = if at == 0.0 { 1.0 } else { at.abs() };
-            let beyond = if bound == Bound::AtLeast { -1.0 } else { 1.0 } / size;
+            let OfRatio { value: distance, by: slope } = distance(value, at);
+            let side = if bound == Bound::AtLeast { -1.0 } else { 1.0 };
             Ok(Held {
                 name: constraint.name(),
                 value,
                 bound,
                 at,
                 tolerance: constraint.tolerance,
-                off: beyond * (value - at),
-                slopes: by.iter().map(|by| beyond * by).collect(),
+                off: side * distance,
+                slopes: by.iter().map(|by| side * slope * by).collect(),
             })
         };
         self.constraints.iter().map(one).collect()
@@ -148,16 +153,49 @@ impl Multipliers {
         if own.bound == Bound::Equals { force } else { force.max(0.0) }
     }
 
+    /// Whether all is where it should be, and nothing that is within its limit is still pushed.
+    pub fn are_settled(&self, held: &[Held]) -> bool {
+        held.iter().zip(&self.values).all(|(own, value)| self.rest(own, *value) <= own.tolerance)
+    }
+
+    /// How far the conditions of an optimum are from being met: what is off an equality, and of a limit the larger of what
+    /// is beyond it and what a multiplier still pushes it within (@nocedal2006, chapter 17.4).
+    fn rest(&self, own: &Held, multiplier: f64) -> f64 {
+        match own.bound {
+            Bound::Equals => own.off.abs(),
+            Bound::AtMost | Bound::AtLeast => own.off.max(-multiplier / self.weight).abs(),
+        }
+    }
+
     /// Takes over what a round has come to.
     pub fn correct(&mut self, held: &[Held]) {
+        let rests = held.iter().zip(&self.values).map(|(own, value)| self.rest(own, *value));
+        let violation = rests.fold(0.0, f64::max);
         let forces = held.iter().zip(&self.values).map(|(own, value)| self.force(own, *value));
         self.values = forces.collect();
-        let violation = held.iter().map(Held::violation).fold(0.0, f64::max);
         if violation > LEFT * self.violation {
             self.weight *= GROWTH;
         }
         self.violation = violation;
     }
+}
+
+/// A function of one number, with its derivative.
+struct OfRatio {
+    value: f64,
+    by: f64,
+}
+
+/// How far something is from the value it is held at, or within, and the derivative of that by it.
+fn distance(value: f64, at: f64) -> OfRatio {
+    if at == 0.0 {
+        return OfRatio { value, by: 1.0 };
+    }
+    let ratio = value / at;
+    let from = ratio.max(SMALLEST_RATIO);
+    // Larger than a value below 0 is nearer to 0
+    let side = at.signum();
+    OfRatio { value: side * (from.ln() + (ratio - from) / from), by: side / (from * at) }
 }
 
 /// A number with its derivatives.
@@ -185,4 +223,55 @@ fn volume(numbers: &Numbers, values: &[f64], body: &str) -> Result<WithSlopes, C
 fn volume_in(file: &CaseFile, name: &str) -> f64 {
     let body = file.model.bodies.iter().find(|body| body.name == name);
     body.map_or(f64::NAN, |body| body.shape.volume_in(file.case().geometry))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_distance_grows_with_what_is_held_and_is_none_at_its_value() {
+        for at in [3.0, 1e-3, -2.0, 0.0] {
+            assert_eq!(distance(at, at).value, 0.0);
+            let mut before = f64::NEG_INFINITY;
+            for value in [-1e4, -5.0, -2.1, -2.0, -1e-4, 0.0, 1e-7, 1e-3, 2.9, 3.1, 4e3] {
+                let OfRatio { value: found, by } = distance(value, at);
+                assert!(found > before && found.is_finite() && by > 0.0, "{at} {value} {found}");
+                before = found;
+                let step = 1e-7 * value.abs().max(1e-7);
+                let [less, more] = [-step, step].map(|step| distance(value + step, at).value);
+                let slope = (more - less) / (2.0 * step);
+                assert!((slope / by - 1.0).abs() < 1e-5, "{at} {value}: {slope} {by}");
+            }
+        }
+        // Near its value the part of it, and a thousandth of it is as far as a thousand times it
+        assert!((distance(3.003, 3.0).value - 1e-3).abs() < 1e-6);
+        assert!((distance(0.003, 3.0).value + distance(3e3, 3.0).value).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_within_its_limit_and_still_pushed_is_not_settled() {
+        let constraint = FlowConstraint {
+            quantity: Some("b.power".to_owned()),
+            volume: None,
+            equals: None,
+            at_most: None,
+            at_least: Some(2.0),
+            tolerance: 1e-4,
+        };
+        let held = |value: f64| {
+            let off = -distance(value, 2.0).value;
+            let bound = Bound::AtLeast;
+            let name = "b.power".to_owned();
+            vec![Held { name, value, bound, at: 2.0, tolerance: 1e-4, off, slopes: vec![] }]
+        };
+        let mut multipliers = Multipliers::new(&[constraint], 1.0);
+        assert!(multipliers.are_settled(&held(3.0)) && !multipliers.are_settled(&held(1.9)));
+        multipliers.correct(&held(0.5));
+        assert!(held(2.7)[0].is_met() && !multipliers.are_settled(&held(2.7)));
+        assert!(multipliers.are_settled(&held(2.0)));
+        // Its multiplier goes once it is far enough within
+        multipliers.correct(&held(50.0));
+        assert!(multipliers.are_settled(&held(2.7)));
+    }
 }

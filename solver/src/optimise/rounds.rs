@@ -10,7 +10,7 @@ use alewife_reduced::search::{
     Bounded, Ended, Evaluated, Found, Progress, Search, SearchError, certainties, search,
 };
 
-use super::constraints::{Held, Multipliers};
+use super::constraints::Multipliers;
 use super::error::OptimiseError;
 use super::numbers::Numbers;
 use super::objective::Objective;
@@ -164,7 +164,7 @@ impl FlowSearch {
             // A method that fails where no flow has failed has met what its mesh is too coarse for
             let may_go_on = last.ended != Ended::Evaluations && sought.failure.is_none();
             let held = sought.held(&last.best.values)?;
-            let is_done = is_near && held.iter().all(Held::is_met);
+            let is_done = is_near && multipliers.are_settled(&held);
             if is_done || !is_left || !may_go_on {
                 let n = round;
                 return Ok(Rounds { all, last, at_start, objective_at_start, sought, n });
