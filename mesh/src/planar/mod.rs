@@ -27,6 +27,7 @@ pub use generate::{
 pub use outline::{Nearest, Outline};
 pub use placement::{SMALLEST_GAP, check_placement, check_wrapped_placement};
 pub use profile::{FishForm, FlagellateForm, Profile, Station, TubeForm};
+pub(crate) use shape::closed_profile;
 pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
 pub use size_field::{SizeField, estimate_cells};
 pub use spline::Spline;

@@ -195,12 +195,13 @@ fn check_kind(domain: &Domain, body: &PlacedShape) -> Result<(), MeshError> {
         Shape::Curve { .. } => ("a closed curve", false),
         Shape::Sphere { .. } => ("a sphere", true),
         Shape::Spheroid { .. } => ("a spheroid", true),
+        Shape::Revolved { .. } => ("a turned profile", true),
     };
     if axisymmetric != domain.is_axisymmetric() {
         let (domain, remedy) = if axisymmetric {
             ("a planar", "disc, ellipse, spline or polygon")
         } else {
-            ("an axisymmetric", "sphere or spheroid")
+            ("an axisymmetric", "sphere, spheroid or turned profile")
         };
         return Err(MeshError::ShapeKind { body: body.name.clone(), shape, domain, remedy });
     }

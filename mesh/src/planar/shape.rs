@@ -7,12 +7,12 @@ use nalgebra::Matrix3;
 
 use crate::planar::vector::cross;
 use crate::quadrature::integrate;
-use crate::{Point, Spline};
+use crate::{MeshError, Point, Spline};
 
 /// The outline of a body in its own frame, centred on the origin before placement.
 ///
-/// In an axisymmetric domain the shapes are `Sphere` and `Spheroid`; their meridian (y >= 0) is
-/// meshed. In a planar domain they are `Disc`, `Ellipse`, `Spline`, `Polygon` and `Curve`.
+/// In an axisymmetric domain the shapes are `Sphere`, `Spheroid` and `Revolved`; their meridian
+/// (y >= 0) is meshed. In a planar domain they are `Disc`, `Ellipse`, `Spline`, `Polygon` and `Curve`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// Disc of the given radius (planar).
@@ -51,6 +51,51 @@ pub enum Shape {
         /// Semi-axes (m): along the axis of revolution, across it.
         semi_axes: [f64; 2],
     },
+    /// A profile turned about the x axis, which it crosses at right angles: a smooth curve through points
+    /// (axisymmetric).
+    Revolved {
+        /// Points (x, distance from the axis) in the body frame (m), the first and the last on the axis.
+        profile: Vec<[f64; 2]>,
+    },
+}
+
+/// A profile, (x, distance from the axis) (m), and back along its mirror image in the axis: points of a closed
+/// curve.
+///
+/// # Errors
+/// [`MeshError::Body`] where the profile does not run from axis to axis.
+pub(crate) fn closed_profile(body: &str, profile: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, MeshError> {
+    let refuse =
+        |what, value, wanted| Err(MeshError::Body { body: body.to_owned(), what, value, wanted });
+    let [first, between @ .., last] = profile else {
+        return refuse("number of points", profile.len() as f64, "three or more");
+    };
+    if let Some([_, off]) = [first, last].into_iter().find(|end| end[1] != 0.0) {
+        return refuse("distance of the ends of the profile from the axis", *off, "0");
+    }
+    if let Some([_, off]) = between.iter().find(|point| point[1].is_nan() || point[1] <= 0.0) {
+        return refuse("distance of the profile from the axis", *off, "positive");
+    }
+    let mut points = profile.to_vec();
+    points.extend(between.iter().rev().map(|[x, off]| [*x, -off]));
+    Ok(points)
+}
+
+/// The curve through a profile and its mirror image: counter-clockwise, its parameter 0 at the right end.
+///
+/// # Errors
+/// [`MeshError::Body`] where the profile does not run from axis to axis, or no curve goes through its points.
+pub(super) fn meridian(body: &str, profile: &[[f64; 2]]) -> Result<Spline, MeshError> {
+    let mut from_right = profile.to_vec();
+    if profile.first().map(|end| end[0]) < profile.last().map(|end| end[0]) {
+        from_right.reverse();
+    }
+    Spline::through(&closed_profile(body, &from_right)?).ok_or_else(|| MeshError::Body {
+        body: body.to_owned(),
+        what: "number of points",
+        value: profile.len() as f64,
+        wanted: "three or more, finite, no two neighbours equal",
+    })
 }
 
 /// A shape put in its place in the domain.
@@ -102,7 +147,7 @@ pub enum SecondMoments {
 }
 
 impl Shape {
-    /// Area or volume, centroid and second moments; `None` for a spline or polygon
+    /// Area or volume, centroid and second moments; `None` for a spline, polygon or profile
     /// without valid points.
     #[must_use]
     pub fn moments(&self) -> Option<Moments> {
@@ -114,6 +159,10 @@ impl Shape {
             Self::Curve { spline } => Some(spline_moments(spline)),
             Self::Sphere { radius } => Some(ellipsoid([*radius; 2])),
             Self::Spheroid { semi_axes } => Some(ellipsoid(*semi_axes)),
+            Self::Revolved { profile } => {
+                let spline = meridian("", profile).ok()?;
+                Some(revolved_moments(&spline))
+            }
         }
     }
 }
@@ -151,6 +200,32 @@ fn spline_moments(spline: &Spline) -> Moments {
     let about_origin = around(&|x| x.norm_squared() / 4.0);
     let polar = about_origin - area * centroid.norm_squared();
     Moments { measure: area, centroid, second: SecondMoments::Planar { polar } }
+}
+
+/// Of a closed profile turned about the x axis, by slices across it: half the sum over both halves of
+/// the curve, of which the lower one runs the other way on the other side.
+fn revolved_moments(spline: &Spline) -> Moments {
+    let along_axis = |f: &dyn Fn(Point<2>) -> f64| -> f64 {
+        let pieces = spline.knots().windows(2);
+        let slices = pieces.map(|k| {
+            integrate(k[0], k[1], |s| {
+                let [at, rate, _] = spline.evaluate(s.min(k[1].next_down()));
+                -PI * f(at) * at.y.abs() * at.y * rate.x
+            })
+        });
+        0.5 * slices.sum::<f64>()
+    };
+    let volume = along_axis(&|_| 1.0);
+    let centroid = along_axis(&|x| x.x) / volume;
+    // A slice of radius r has r^4 pi/2 about the axis, and half of it about its diameters
+    let along = along_axis(&|x| 0.5 * x.y * x.y);
+    let about_origin = along_axis(&|x| 0.25 * x.y * x.y + x.x * x.x);
+    let across = about_origin - volume * centroid * centroid;
+    Moments {
+        measure: volume,
+        centroid: Point::<2>::new(centroid, 0.0),
+        second: SecondMoments::Revolved { along, across },
+    }
 }
 
 /// By Green's theorem, side by side: exact. About the first corner, for the sake of rounding.
@@ -194,6 +269,27 @@ mod tests {
             _ => panic!("is planar"),
         };
         assert!((polar(spline) / polar(exact) - 1.0).abs() < 1e-5);
+    }
+
+    /// As above, turned about the axis.
+    #[test]
+    fn a_revolved_ellipse_has_the_moments_of_the_spheroid() {
+        let shift = 0.4;
+        let between = (1..32).map(|i| PI * f64::from(i) / 32.0);
+        let mut profile = vec![[shift - 2.0, 0.0]];
+        profile.extend(between.map(|t| [shift - 2.0 * t.cos(), t.sin()]));
+        profile.push([shift + 2.0, 0.0]);
+        let revolved = Shape::Revolved { profile }.moments().unwrap();
+        let exact = Shape::Spheroid { semi_axes: [2.0, 1.0] }.moments().unwrap();
+        assert!((revolved.measure / exact.measure - 1.0).abs() < 1e-5, "{revolved:?}");
+        assert!((revolved.centroid - Point::<2>::new(shift, 0.0)).norm() < 1e-5, "{revolved:?}");
+        let second = |m: Moments| match m.second {
+            SecondMoments::Revolved { along, across } => [along, across],
+            _ => panic!("is turned"),
+        };
+        for (one, other) in second(revolved).into_iter().zip(second(exact)) {
+            assert!((one / other - 1.0).abs() < 2e-5, "{one} {other}");
+        }
     }
 
     #[test]

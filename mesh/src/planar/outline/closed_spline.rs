@@ -9,6 +9,9 @@ use crate::{MeshError, Point, Spline};
 /// Samples between two points of the spline, to start searches from.
 const SAMPLES_PER_SPAN: usize = 12;
 
+/// Distance from the axis over that of samples, below which a point is an end on the axis.
+const ON_AXIS: f64 = 1e-9;
+
 /// A counter-clockwise spline that does not cross itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClosedSpline {
@@ -20,6 +23,8 @@ pub struct ClosedSpline {
     samples: Vec<Sample>,
     /// Largest distance between neighbouring samples (m).
     spacing: f64,
+    /// Whether its lower half is the mirror image of the upper one in the x axis.
+    is_about_axis: bool,
 }
 
 /// A point of the spline.
@@ -65,7 +70,25 @@ impl ClosedSpline {
         cuts[4] = cuts[0] + spline.period();
         let sample = |(parameter, point)| Sample { parameter, point };
         let samples = samples.into_iter().zip(places).map(sample).collect();
-        Ok(Self { spline, cuts, samples, spacing })
+        Ok(Self { spline, cuts, samples, spacing, is_about_axis: false })
+    }
+
+    /// One that is its own mirror image in the x axis, whose points begin with its right end: cut at its ends and half
+    /// way between them, so that a half of it is two of the quarters whatever its extreme points are.
+    pub fn about_axis(spline: Spline, name: &str) -> Result<Self, MeshError> {
+        let whole = Self::new(Arc::new(spline), name).map_err(|error| match error {
+            MeshError::Body { body, value, .. } => {
+                let what = "area between the profile and the axis";
+                let wanted = "positive: list its points from one end to the other";
+                MeshError::Body { body, what, value, wanted }
+            }
+            error => error,
+        })?;
+        let knots = whole.spline.knots();
+        let (left, period) = (knots[knots.len() / 2], whole.spline.period());
+        // The sum of two halves is exact, so the second quarter ends at the knot on the axis to the last bit
+        let cuts = [0.0, 0.5 * left, left, left + 0.5 * (period - left), period];
+        Ok(Self { cuts, is_about_axis: true, ..whole })
     }
 
     /// No point of it is farther from the origin (m).
@@ -84,14 +107,28 @@ impl ClosedSpline {
 
     /// Point of the spline nearest to a point.
     pub fn nearest(&self, point: Point<2>) -> Foot {
-        let [at, first, second] = self.spline.evaluate(self.parameter_of(point));
+        let [mut at, first, second] = self.spline.evaluate(self.parameter_of(point));
+        // The foot of a place on the axis has its rounding; a node there may not leave the axis
+        if self.is_about_axis && point.y == 0.0 && at.y.abs() < ON_AXIS * self.spacing {
+            at.y = 0.0;
+        }
         let speed = first.norm();
         let normal = Point::<2>::new(first.y, -first.x) / speed;
         Foot { point: at, normal, curvature: cross(first, second) / speed.powi(3) }
     }
 
-    /// Parameter of the point of the spline nearest to a point.
+    /// Parameter of the point of the spline nearest to a point; of two about an axis that are as near, the one on
+    /// the side of the point, the upper side for a point on the axis.
     pub fn parameter_of(&self, point: Point<2>) -> f64 {
+        let found = self.search(point);
+        let is_above = |place: Point<2>| place.y >= 0.0;
+        if self.is_about_axis && is_above(self.spline.evaluate(found)[0]) != is_above(point) {
+            return self.spline.period() - found;
+        }
+        found
+    }
+
+    fn search(&self, point: Point<2>) -> f64 {
         let Self { spline, samples, spacing, .. } = self;
         let n = samples.len();
         let gaps: Vec<f64> = samples.iter().map(|sample| (sample.point - point).norm()).collect();

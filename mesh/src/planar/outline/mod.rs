@@ -2,7 +2,7 @@
 //!
 //! Quarter k runs counter-clockwise from the extreme point in direction k of the body frame (+x,
 //! +y, -x, -y) to the next one, with a parameter in [0, 1]. For an ellipse the parameter is the
-//! eccentric angle over π/2.
+//! eccentric angle over π/2. Those of a turned profile begin at its ends, and half way between them.
 
 mod closed_spline;
 mod ellipse;
@@ -17,6 +17,7 @@ use foot::Foot;
 use polygon::Polygon;
 pub(super) use polygon::{Corner, stokes_exponent};
 
+use crate::planar::shape::meridian;
 use crate::surface::{Surface, SurfacePoint};
 use crate::{MeshError, PlacedShape, Point, Shape, Spline};
 
@@ -59,7 +60,7 @@ impl Outline {
     /// Outline of a body in its place.
     ///
     /// # Errors
-    /// [`MeshError::Body`] when a length is not positive or a spline or polygon has no valid points,
+    /// [`MeshError::Body`] when a length is not positive or a spline, polygon or profile has no valid points,
     /// [`MeshError::SelfIntersection`] when one crosses itself.
     pub fn new(body: &PlacedShape) -> Result<Self, MeshError> {
         let refuse =
@@ -82,6 +83,10 @@ impl Outline {
                     refuse("number of points", points.len() as f64, wanted)
                 })?;
                 let form = ClosedSpline::new(Arc::new(spline), &body.name)?;
+                return Ok(Self::with_form(body.center, body.angle, Form::Spline(form)));
+            }
+            Shape::Revolved { profile } => {
+                let form = ClosedSpline::about_axis(meridian(&body.name, profile)?, &body.name)?;
                 return Ok(Self::with_form(body.center, body.angle, Form::Spline(form)));
             }
             Shape::Polygon { points } => {

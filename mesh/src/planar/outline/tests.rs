@@ -68,6 +68,46 @@ fn a_spline_is_cut_at_its_extreme_points() {
     assert!((nearest.gap - closest.unwrap()).abs() < 1e-5);
 }
 
+/// A pear, either way round: of its quarters, and of the feet of places on the axis and beside it.
+#[test]
+fn a_turned_profile_is_the_same_on_both_sides_of_the_axis_and_ends_on_it() {
+    let pear = vec![[-1.0, 0.0], [-0.8, 0.4], [-0.1, 0.7], [0.9, 0.3], [1.6, 0.2], [1.9, 0.0]];
+    let backwards: Vec<[f64; 2]> = pear.iter().rev().copied().collect();
+    let turned = |profile: &[[f64; 2]]| {
+        let shape = Shape::Revolved { profile: profile.to_vec() };
+        let center = Point::<2>::new(0.3, 0.0);
+        Outline::new(&PlacedShape { shape, center, angle: 0.0, ..ellipse(1.0, 1.0) }).unwrap()
+    };
+    let outline = turned(&pear);
+    assert_eq!(outline, turned(&backwards));
+    let ends = [0, 2].map(|quarter| outline.evaluate(quarter, 0.0)[0]);
+    assert_eq!(ends, [[1.9 + 0.3, 0.0], [-1.0 + 0.3, 0.0]].map(Point::<2>::from));
+    assert_eq!(outline.evaluate(1, 1.0)[0], ends[1]);
+    let mirrored = |place: Point<2>| Point::<2>::new(place.x, -place.y);
+    for i in 0..=40 {
+        let along = f64::from(i) / 40.0;
+        for (upper, lower) in [(0, 3), (1, 2)] {
+            let places =
+                [outline.evaluate(upper, along)[0], outline.evaluate(lower, 1.0 - along)[0]];
+            assert!((places[0] - mirrored(places[1])).norm() < 1e-14, "{places:?}");
+            assert!(places[0].y >= 0.0, "{places:?}");
+        }
+        // Of a place on the axis the foot is above it, or exactly on it
+        let on_axis = outline.nearest(Point::<2>::new(6.0 * along - 3.0, 0.0));
+        let is_beyond = [ends[0].x, ends[1].x].contains(&on_axis.point.x);
+        assert!(on_axis.point.y > 1e-3 || (on_axis.point.y == 0.0 && is_beyond), "{on_axis:?}");
+        for y in [1e-13, 0.1, 2.0] {
+            let place = Point::<2>::new(6.0 * along - 3.0, y);
+            let feet = [outline.nearest(place), outline.nearest(mirrored(place))];
+            assert!((feet[0].point - mirrored(feet[1].point)).norm() < 1e-11, "{feet:?}");
+            assert!(feet[0].point.y > -1e-13, "{feet:?}");
+        }
+    }
+    for end in ends {
+        assert_eq!(outline.nearest(end).point, end);
+    }
+}
+
 #[test]
 fn a_figure_of_eight_is_refused() {
     let points = vec![[2.0, -1.0], [2.0, 1.0], [-2.0, -1.5], [-2.0, 1.5]];

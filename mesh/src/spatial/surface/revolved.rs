@@ -1,6 +1,7 @@
 //! `Revolved`: the surface a planar profile makes when it is turned about the x axis.
 
 use super::Foot;
+use crate::planar::closed_profile;
 use crate::{MeshError, Outline, PlacedShape, Point, Shape, thickness};
 
 /// Distance from the axis over the size of the profile, below which a point counts as on the axis.
@@ -21,22 +22,8 @@ impl Revolved {
     /// [`MeshError::Body`] where the profile does not run from axis to axis, and what
     /// [`Outline::new`] refuses.
     pub fn new(body: &str, profile: &[[f64; 2]]) -> Result<Self, MeshError> {
-        let refuse = |what, value, wanted| {
-            Err(MeshError::Body { body: body.to_owned(), what, value, wanted })
-        };
-        let (Some(first), Some(last)) = (profile.first(), profile.last()) else {
-            return refuse("number of points", 0.0, "three or more");
-        };
-        if let Some([_, off]) = [first, last].into_iter().find(|end| end[1] != 0.0) {
-            return refuse("distance of the ends of the profile from the axis", *off, "0");
-        }
-        let between = &profile[1..profile.len() - 1];
-        if let Some([_, off]) = between.iter().find(|point| point[1].is_nan() || point[1] <= 0.0) {
-            return refuse("distance of the profile from the axis", *off, "positive");
-        }
-        let mut points = profile.to_vec();
-        points.extend(between.iter().rev().map(|[x, off]| [*x, -off]));
-        if first[0] < last[0] {
+        let mut points = closed_profile(body, profile)?;
+        if profile.first().map(|end| end[0]) < profile.last().map(|end| end[0]) {
             // Counter-clockwise
             points.reverse();
         }
@@ -120,6 +107,8 @@ mod tests {
     fn profiles_off_the_axis_are_refused() {
         for profile in [
             vec![],
+            vec![[0.0; 2]],
+            vec![[0.0; 2], [1.0, 0.0]],
             vec![[0.0, 0.1], [1.0, 0.5], [2.0, 0.0]],
             vec![[0.0; 2], [1.0, -0.5], [2.0, 0.0]],
         ] {

@@ -61,6 +61,10 @@ impl ShapeSpec {
     /// Volume in a geometry, in the plane area (m3, m2).
     #[must_use]
     pub fn volume_in(&self, geometry: Geometry) -> f64 {
+        if let (Self::Revolved { .. }, Geometry::Axisymmetric) = (self, geometry) {
+            // That of the curve through its points, as it is meshed
+            return self.outline().moments().map_or(0.0, |moments| moments.measure);
+        }
         let sections = self.sections().filter(|_| geometry == Geometry::Spatial);
         sections.map_or_else(|| self.volume(), |sections| sections.moments().volume)
     }
@@ -103,13 +107,13 @@ impl ShapeSpec {
             }
             Self::Sphere { radius } => Shape::Sphere { radius },
             Self::Spheroid { semi_axes } => Shape::Spheroid { semi_axes },
+            Self::Revolved { profile } => Shape::Revolved { profile },
             // Shapes in space have none
             Self::Ellipsoid { .. }
             | Self::Capsule { .. }
             | Self::Cylinder { .. }
             | Self::Helix(_)
             | Self::Curve(_)
-            | Self::Revolved { .. }
             | Self::Surface(_)
             | Self::Union(_) => Shape::Spline { points: Vec::new() },
         }

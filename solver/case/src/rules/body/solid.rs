@@ -191,4 +191,39 @@ boundary = {{ left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no
             ["body.0.shape.union.1.orientation.along"]
         );
     }
+
+    /// The same on the axis as in space, and what its mirror image crosses.
+    #[test]
+    fn turned_profiles_on_the_axis_are_refused_at_their_points() {
+        let wrong = |geometry: &str, profile: &str| {
+            let text = format!(
+                "title = 't'
+geometry = '{geometry}'
+fluid = {{ model = 'stokes', viscosity = 1.0 }}
+domain.half-disc = {{ radius = 4.0 }}
+mesh = {{ size = 0.5 }}
+time = {{ steady = {{}} }}
+boundary = {{ wall = 'no-slip' }}
+body = [{{ name = 'b', shape.revolved.profile = {profile}, center = [0, 0], motion = 'free' }}]
+"
+            );
+            let found = check(&Case::parse("t.toml", &text, &[]).unwrap());
+            let errors = found.into_iter().filter(|one| one.severity == crate::Severity::Error);
+            errors.map(|found| found.key).collect::<Vec<_>>()
+        };
+        let axis = "axisymmetric";
+        let key = "body.0.shape.revolved.profile";
+        assert!(wrong(axis, "[[-1, 0], [0, 0.5], [1, 0]]").is_empty());
+        assert!(wrong(axis, "[[1, 0], [0, 0.5], [-1, 0]]").is_empty());
+        assert_eq!(wrong(axis, "[[-1, 0], [1, 0]]"), [key]);
+        assert_eq!(wrong(axis, "[[-1, 0.1], [0, 0.5], [1, 0]]"), [format!("{key}.0")]);
+        assert_eq!(wrong(axis, "[[-1, 0], [0, -0.5], [1, 0]]"), [format!("{key}.1")]);
+        // Through the same point twice, and across itself
+        for crossed in
+            ["[[-1, 0], [0, 0.5], [0, 0.5], [1, 0]]", "[[-1, 0], [2, 1], [-2, 1], [1, 0]]"]
+        {
+            assert_eq!(wrong(axis, crossed), ["body.0.shape"], "{crossed}");
+        }
+        assert_eq!(wrong(axis, "[[-9, 0], [0, 0.5], [1, 0]]"), ["body.0.center"]);
+    }
 }

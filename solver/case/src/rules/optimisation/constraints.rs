@@ -3,7 +3,7 @@
 use super::known::check_known;
 use crate::rules::Findings;
 use crate::text::nearest::nearest;
-use crate::{FlowConstraint, FlowOptimisation, ShapeSpec};
+use crate::{FlowConstraint, FlowOptimisation, Geometry, ShapeSpec};
 
 pub fn check(findings: &mut Findings<'_>, spec: &FlowOptimisation) {
     for (index, constraint) in spec.constraint.iter().enumerate() {
@@ -48,7 +48,9 @@ fn check_volume(findings: &mut Findings<'_>, key: &str, name: &str) {
     };
     let unknown = match body.shape {
         ShapeSpec::Union(_) => "its parts overlap",
-        ShapeSpec::Revolved { .. } => "that of a turned profile is known to some per cent only",
+        ShapeSpec::Revolved { .. } if findings.case().geometry == Geometry::Spatial => {
+            "in space that of a turned profile is known to some per cent only"
+        }
         _ => return,
     };
     let message = format!("the volume of `{name}` is not known: {unknown}");

@@ -107,6 +107,25 @@ fn references_are_those_of_an_optimum() {
     refuses("Oberbeck's drag", "", &["where its value is from"]);
 }
 
+/// The curve of a turned profile is known on the axis.
+#[test]
+fn the_volume_of_a_turned_profile_is_held() {
+    let case = CASE
+        .replace("spheroid = { semi_axes = [1.2, 1.0] }", "revolved.profile = [[-1.2, 0.0], [0.0, 1.0], [1.2, 0.0]]")
+        .replace(
+            "keys = [\"body.0.shape.spheroid.semi_axes.0\", \"body.0.shape.spheroid.semi_axes.1\"]\nvalues = \
+             [\"aspect^(2/3)\", \"aspect^(-1/3)\"]",
+            "keys = [\"body.0.shape.revolved.profile.1.1\"]",
+        )
+        .replace(
+            "[optimisation.search]",
+            "[[optimisation.constraint]]\nvolume = \"spheroid\"\nequals = 4.2\n[optimisation.search]",
+        );
+    let file = Case::parse("case.toml", &case, &[]).unwrap();
+    let found: Vec<String> = check(&file).iter().map(ToString::to_string).collect();
+    assert!(found.is_empty(), "{found:?}");
+}
+
 #[test]
 fn what_is_held_is_a_quantity_or_a_volume_at_one_value() {
     let with = |lines: &str| {

@@ -137,8 +137,8 @@ pub enum ShapeSpec {
     /// Tube along a smooth curve through points (spatial).
     #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
     Curve(CurveShape),
-    /// Smooth profile turned about the body's x axis (spatial).
-    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
+    /// Smooth profile turned about the body's x axis, which it crosses at right angles (axisymmetric, spatial).
+    #[cfg_attr(test, schemars(extend("geometries" = ["axisymmetric", "spatial"])))]
     Revolved {
         /// Points (x, distance from the axis) of the profile (m), the first and the last on the axis.
         #[cfg_attr(test, schemars(length(min = 3)))]
