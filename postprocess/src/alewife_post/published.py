@@ -27,6 +27,8 @@ DATED = re.compile(r"[^;:]*?\b(?:19|20)\d\d\b")
 """A source up to its year."""
 LONGEST = 44
 """Letters of a source beside a row."""
+LARGEST = 100.0
+"""A published value that is less certain (per cent) may be zero, and has no relative difference."""
 AROUND = 1.3
 """An axis ends this many times as far out as differences, tolerances and published uncertainties;
 the discretisation error may continue beyond it."""
@@ -124,13 +126,15 @@ def points_of(run: Run, variant: str | None, known: set[str]) -> list[Curve]:
 
 
 def values_of(variant: str | None, run: Run) -> list[Value]:
-    """Published values of a run that were computed and are not zero."""
+    """Published values of a run that were computed and are certainly not zero."""
     found = []
     for one in evidence.comparisons(run):
         if one["kind"] not in PUBLISHED or one["computed"] is None or one["reference"] == 0.0:
             continue
         percent = 100.0 / abs(one["reference"])
         scale = 100.0 if one["is_relative"] else percent
+        if scale * (one["uncertainty"] or 0.0) > LARGEST:
+            continue
         found.append(
             Value(
                 label_of(variant, one),

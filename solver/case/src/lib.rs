@@ -22,12 +22,13 @@ pub use quantity::{
     ScalarSurfaceQuantity, Shape, SideQuantity, Source, SwimmerQuantity, TracerQuantity, columns,
     differentiable_columns, known_quantities, reports_sides,
 };
+pub use read::directory_name::directory_name;
 pub use read::library;
 pub use read::problem_keys::collect_keys;
 pub use read::recording::Recording;
 pub use read::schema::schema;
 pub use read::sought::{SOLVED_TABLES, SoughtNumber, numbers_at};
-pub use read::{CaseFile, WrittenNumber, directory_name};
+pub use read::{CaseFile, WrittenNumber};
 pub use rules::{at_rest, check, check_flow, check_reduced};
 pub use spec::body::axial_vector::AxialVector;
 pub use spec::body::command::{Command, Follower};

@@ -176,9 +176,20 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
             found.push(("activation".to_owned(), format!("activation.{name}"), command));
         }
     }
-    for at_end in
-        body.rod.iter_mut().filter_map(|rod| rod.load.as_mut()).flat_map(EndLoads::ends_mut)
+    found.extend(body.rod.iter_mut().filter_map(|rod| rod.load.as_mut()).flat_map(of_ends));
+    if let Some(Hold::Angle(angle)) = body.attached.as_mut().map(|attached| &mut attached.hold)
+        && let Some(command) = of_stroke(Some(angle))
     {
+        found.push(("angle".to_owned(), "attached.hold.angle".to_owned(), command));
+    }
+    found.extend(body.gait.iter_mut().flat_map(of_gait));
+    found
+}
+
+/// Commands of loads at the ends of a rod.
+fn of_ends(loads: &mut EndLoads) -> Vec<Found<'_>> {
+    let mut found: Vec<Found<'_>> = Vec::new();
+    for at_end in loads.ends_mut() {
         let EndLoadSpec { force, moment } = at_end.load;
         let forces = force.iter_mut().zip(["x", "y"]).enumerate();
         let forces = forces.map(|(axis, (stroke, name))| {
@@ -192,13 +203,14 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
             }
         }
     }
-    if let Some(Hold::Angle(angle)) = body.attached.as_mut().map(|attached| &mut attached.hold)
-        && let Some(command) = of_stroke(Some(angle))
-    {
-        found.push(("angle".to_owned(), "attached.hold.angle".to_owned(), command));
-    }
-    match &mut body.gait {
-        Some(GaitSpec::Squirmer(gait)) => {
+    found
+}
+
+/// Commands of a gait.
+fn of_gait(gait: &mut GaitSpec) -> Vec<Found<'_>> {
+    let mut found: Vec<Found<'_>> = Vec::new();
+    match gait {
+        GaitSpec::Squirmer(gait) => {
             for (mode, factor) in &mut gait.factors {
                 if let Some(command) = of_factor(Some(factor)) {
                     let key = format!("gait.squirmer.factors.{mode}");
@@ -209,14 +221,14 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
                 found.push(("turn".to_owned(), "gait.squirmer.turn".to_owned(), command));
             }
         }
-        Some(GaitSpec::Joints(gait)) => {
+        GaitSpec::Joints(gait) => {
             for (nth, joint) in gait.joints.iter_mut().enumerate() {
                 if let Some(command) = of_stroke(Some(&mut joint.angle)) {
                     found.push((format!("joint.{}", nth + 1), "gait".to_owned(), command));
                 }
             }
         }
-        Some(GaitSpec::Carangiform(gait)) => {
+        GaitSpec::Carangiform(gait) => {
             for (what, stroke) in [("beat", &mut gait.beat), ("bend", &mut gait.bend)] {
                 if let Some(command) = of_stroke(stroke.as_mut()) {
                     found.push((what.to_owned(), format!("gait.carangiform.{what}"), command));
@@ -224,7 +236,7 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
             }
         }
         // Others wait for nothing
-        Some(_) | None => {}
+        _ => {}
     }
     found
 }

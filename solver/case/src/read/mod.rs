@@ -8,6 +8,7 @@
 
 pub(crate) mod case_text;
 mod columns;
+pub(crate) mod directory_name;
 pub(crate) mod files;
 pub mod library;
 pub(crate) mod problem_keys;
@@ -37,8 +38,7 @@ use crate::text::diagnostic::{CaseError, Diagnostic, Severity};
 use crate::text::names::SWEEP;
 use crate::text::setting;
 use crate::text::source::{Location, Source};
-use crate::text::tree;
-use crate::text::tree::{Found, TomlNode, TomlValue, TreeError};
+use crate::text::tree::{self, Found, TomlNode, TomlValue, TreeError};
 use crate::{Case, Model, ShapeSpec};
 
 /// Keys of a file that those who extend it do not inherit.
@@ -118,18 +118,6 @@ impl CaseFile {
     pub fn full_name(&self) -> String {
         full_name(&self.name, self.variant.as_deref())
     }
-
-    /// The full name as that of a directory: `sphere-in-tube-free-0.5`.
-    #[must_use]
-    pub fn directory_name(&self) -> String {
-        directory_name(&self.full_name())
-    }
-}
-
-/// The full name of a case, or the name of a sweep, as that of a directory.
-#[must_use]
-pub fn directory_name(name: &str) -> String {
-    name.replace('/', "-")
 }
 
 fn full_name(name: &str, variant: Option<&str>) -> String {

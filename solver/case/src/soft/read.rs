@@ -4,9 +4,10 @@ use serde::Deserialize;
 
 use super::spec::SoftCase;
 use crate::read::case_text::{Located, locate, source_beside};
+use crate::read::directory_name::directory_name;
 use crate::read::files::read_mesh::bytes_of;
 use crate::read::files::surface_file;
-use crate::read::{UntypedCase, collect_numbers, directory_name, location, wrong};
+use crate::read::{UntypedCase, collect_numbers, location, wrong};
 use crate::text::diagnostic::{CaseError, Diagnostic, Severity};
 use crate::text::source::{Location, Origin};
 use crate::text::tree::{TomlNode, TomlValue, TreeError};
