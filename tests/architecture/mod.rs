@@ -78,7 +78,7 @@ const ROOMS: [(&str, &[&str]); 38] = [
             "tracer",
         ],
     ),
-    ("gradient", &["algebra", "body", "case", "coupling", "motion", "run", "step"]),
+    ("gradient", &["algebra", "body", "case", "coupling", "motion", "run", "state", "step"]),
     ("reduced", &["case", "run"]),
     ("optimise", &["case", "gradient"]),
     ("observer", &["body", "case", "flow", "run", "scalar", "step", "timing", "tracer"]),

@@ -1,6 +1,7 @@
-//! Gradients of steady flows against differences of complete solutions, and against what is known exactly.
+//! Gradients of steady flows and of motions against differences of complete solutions, and against what is known exactly.
 
 mod exact;
+mod in_time;
 mod kinds;
 
 use alewife_core::case::Case;

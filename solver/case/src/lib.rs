@@ -18,9 +18,9 @@ pub use model::{Model, SwimmerModel};
 pub use quantity::signals::{Action as SignalAction, Input, Mistake, Signals};
 pub use quantity::{
     BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
-    ProbeQuantity, Quantity, ScalarProbeQuantity, ScalarQuantity, ScalarSurface,
+    NoGradientInTime, ProbeQuantity, Quantity, ScalarProbeQuantity, ScalarQuantity, ScalarSurface,
     ScalarSurfaceQuantity, Shape, SideQuantity, Source, SwimmerQuantity, TracerQuantity, columns,
-    differentiable_columns, known_quantities, reports_sides,
+    differentiable_columns, known_quantities, no_gradient_in_time, reports_sides,
 };
 pub use read::directory_name::directory_name;
 pub use read::library;

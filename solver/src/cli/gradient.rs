@@ -1,4 +1,4 @@
-//! `gradient`: how quantities of a steady flow change with numbers of its case.
+//! `gradient`: how quantities of a steady flow, or of the end of a motion without inertia, change with numbers of its case.
 
 use clap::Args;
 use serde_json::{Value, json};
@@ -16,8 +16,9 @@ pub struct Options {
     /// Which case
     #[arg(add = complete::case())]
     case: String,
-    /// Quantities, by their columns in series.csv: loads, powers and velocities of bodies and swimmers, such as
-    /// ball.force.x
+    /// Quantities, by their columns in series.csv: of a steady flow loads, powers and velocities of bodies and swimmers,
+    /// such as ball.force.x; of a run without inertia by steps of rk3 what it ends with, places and averages over the last
+    /// cycle, such as swimmer.cycle.x
     #[arg(long, required = true, value_delimiter = ',', value_name = "QUANTITY[,QUANTITY...]")]
     of: Vec<String>,
     /// Keys of numbers of the case, such as fluid.viscosity,body.0.shape.disc.radius
@@ -25,8 +26,8 @@ pub struct Options {
     by: Vec<String>,
     #[command(flatten)]
     settings: Settings,
-    /// Compare each derivative with a central difference of two complete solutions on the mesh that moves with the
-    /// number; exit code 20 where they differ by more than 1e-4
+    /// Compare each derivative with a central difference of two complete solutions, or of two runs, on the mesh that moves
+    /// with the number; exit code 20 where they differ by more than 1e-4
     #[arg(long)]
     check: bool,
     /// As JSON

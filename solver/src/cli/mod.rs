@@ -112,11 +112,11 @@ enum Command {
     },
     /// Run a case and compare it with its references
     Run(run::Options),
-    /// Print how quantities of a steady flow change with numbers of its case
+    /// Print how quantities of a steady flow, or of the end of a run without inertia, change with numbers of its case
     Gradient(gradient::Options),
     /// Find the numbers of a soft case that make it move as recorded, or coefficients of a reduced model
     Calibrate(soft::SearchOptions),
-    /// Find the numbers of a case that make its objective large: of a soft case, or of a steady flow
+    /// Find the numbers of a case that make its objective large: of a soft case, of a steady flow, or of a run without inertia
     Optimise(soft::SearchOptions),
     /// Optimise, have a robot move so, and calibrate by what is seen, in turns
     Loop(soft::LoopOptions),

@@ -1,4 +1,4 @@
-//! `OptimiseError`: why a search of a steady flow does not begin.
+//! `OptimiseError`: why a search of a flow does not begin.
 
 use alewife_reduced::search::SearchError;
 use thiserror::Error;
@@ -6,7 +6,7 @@ use thiserror::Error;
 use crate::case::CaseError;
 use crate::gradient::GradientError;
 
-/// Why a search of a steady flow does not begin.
+/// Why a search of a flow does not begin.
 #[derive(Debug, Error)]
 pub enum OptimiseError {
     /// The case has no search, or one that cannot be made.

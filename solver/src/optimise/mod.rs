@@ -1,4 +1,4 @@
-//! Searches for the numbers of a steady flow that make an objective large, by its gradients.
+//! Searches for the numbers of a steady flow, or of a run without inertia, that make an objective large, by its gradients.
 
 mod constraints;
 mod error;

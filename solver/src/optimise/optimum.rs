@@ -1,4 +1,4 @@
-//! `Optimum`: what a search of a steady flow came to, its report and its files.
+//! `Optimum`: what a search of a flow came to, its report and its files.
 
 use std::fmt::Write as _;
 use std::io;
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::constraints::Held;
 use crate::case::{CaseFile, MeshFile, OptimumReference};
 
-/// What a search of a steady flow came to.
+/// What a search of a flow came to.
 #[derive(Debug)]
 pub struct Optimum {
     /// The case with the numbers that were found.

@@ -1,4 +1,4 @@
-//! `FlowSearch`: a search of a steady flow in rounds, each on the mesh of the case at the best of the round before.
+//! `FlowSearch`: a search of a flow in rounds, each on the mesh of the case at the best of the round before.
 //!
 //! Within a round the mesh follows the bodies, so that the objective is a smooth function of the numbers. It is that of
 //! the mesh of the start, though: a round that has led away from it is followed by another one.
@@ -29,7 +29,7 @@ const NEAR: f64 = 0.01;
 /// The rise of the objective, of its value, up to which numbers are told to be as good.
 const RISE: f64 = 0.01;
 
-/// A search of a steady flow.
+/// A search of a flow.
 #[derive(Debug)]
 pub struct FlowSearch {
     file: CaseFile,

@@ -11,7 +11,7 @@ mod table;
 
 use crate::{FlowModel, Geometry, MagneticSpec, Model, SwimmerModel, TimeSettings};
 
-pub use self::differentiable::differentiable_columns;
+pub use self::differentiable::{NoGradientInTime, differentiable_columns, no_gradient_in_time};
 pub use self::row::{Component, Condition, NamedComponent, Quantity, Shape};
 pub use self::scalars::ScalarSurface;
 use self::scalars::is_crossed;

@@ -2,8 +2,8 @@
 
 use super::error::GradientError;
 use super::flow::BaseFlow;
+use super::mesh_of_bodies::MeshOfBodies;
 use super::point::CasePoint;
-use crate::case::{CaseError, CaseFile};
 use crate::run::{CaseMesh, Dimension};
 
 /// A quantity with its derivatives.
@@ -33,20 +33,19 @@ pub(super) struct Ends<const D: usize> {
 /// Part of an edge by which nodes on bodies move at most.
 const WAY: f64 = 0.02;
 
-/// The ends of a step from the case of a flow, which is made shorter where surfaces would move too far; `changed` is the
+/// The ends of a step from a case on its mesh, which is made shorter where surfaces would move too far; `at` is the
 /// case with the number larger by so much.
 pub(super) fn ends<const D: usize>(
-    flow: &BaseFlow<D>,
+    mesh: &MeshOfBodies<D>,
+    here: &CasePoint<D>,
     mut step: f64,
-    changed: &dyn Fn(f64) -> Result<CaseFile, CaseError>,
+    at: &dyn Fn(f64) -> Result<CasePoint<D>, GradientError>,
 ) -> Result<Ends<D>, GradientError>
 where
     Dimension<D>: CaseMesh<D>,
 {
-    let at =
-        |change: f64| -> Result<CasePoint<D>, GradientError> { flow.mesh.point(changed(change)?) };
     let mut above = at(step)?;
-    let way = flow.mesh.way(&flow.point, &above);
+    let way = mesh.way(here, &above);
     if way > WAY {
         step *= WAY / way;
         above = at(step)?;

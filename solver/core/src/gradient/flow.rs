@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::error::GradientError;
 use super::mesh_of_bodies::MeshOfBodies;
+use super::moment::Moment;
 use super::objective::Weights;
 use super::point::CasePoint;
 use super::refusals::refuse;
@@ -51,17 +52,21 @@ where
             (simulation.problem, simulation.work, simulation.state.image_shifts.clone());
         refuse(file, &problem)?;
         let mesh = Rc::new(MeshOfBodies::new(model, &problem, &work.mesh, &shifts)?);
-        let point = CasePoint::new(file.clone(), problem, work.mesh.clone(), &shifts)?;
+        let mesh_now = work.mesh.clone();
+        let point = CasePoint::new(file.clone(), problem, mesh_now, &shifts, &Moment::START)?;
         Self::at(mesh, point, work, columns)
     }
 
-    /// The mesh of a case.
-    pub fn mesh_of(file: &CaseFile) -> Result<Rc<MeshOfBodies<D>>, GradientError> {
+    /// The mesh of a case, and the system on it.
+    pub fn mesh_and_system(
+        file: &CaseFile,
+    ) -> Result<(Rc<MeshOfBodies<D>>, Workspace<D>), GradientError> {
         let simulation = simulation_with::<D>(&file.model, |_| Ok(()))?;
         let (problem, mesh) = (&simulation.problem, &simulation.work.mesh);
         refuse(file, problem)?;
         let shifts = &simulation.state.image_shifts;
-        Ok(Rc::new(MeshOfBodies::new(&file.model, problem, mesh, shifts)?))
+        let mesh = Rc::new(MeshOfBodies::new(&file.model, problem, mesh, shifts)?);
+        Ok((mesh, simulation.work))
     }
 
     /// Solves for the flow of a case on a mesh that has followed its bodies.
@@ -74,7 +79,8 @@ where
         Self::at(mesh, point, simulation.work, columns)
     }
 
-    fn at(
+    /// Solves for the flow of a case with the system of its mesh.
+    pub fn at(
         mesh: Rc<MeshOfBodies<D>>,
         point: CasePoint<D>,
         mut work: Workspace<D>,
@@ -115,8 +121,7 @@ pub(super) fn surface_loads<const D: usize>(
     solution: &Solution<D>,
     residual: &[f64],
 ) -> SurfaceLoads {
-    // Steady flows are those of time zero
-    let found = ResidualAt { solution, residual, time: 0.0 };
+    let found = ResidualAt { solution, residual, time: point.time() };
     system.surface_loads(&point.problem, &point.mesh, &point.in_mesh, found)
 }
 
@@ -138,6 +143,11 @@ pub(super) fn values<const D: usize>(
 }
 
 impl<const D: usize> BaseFlow<D> {
+    /// The system on the mesh, for another flow.
+    pub fn into_work(self) -> Workspace<D> {
+        self.work
+    }
+
     /// The values of the quantities.
     pub fn values(&self) -> &[f64] {
         &self.values

@@ -4,6 +4,7 @@ use alewife_mesh::{BoundaryId, BoundaryKind, Facet, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
 use super::error::GradientError;
+use super::moment::Moment;
 use super::point::CasePoint;
 use crate::body::{Pose, on_mesh};
 use crate::case::{CaseFile, Model};
@@ -64,10 +65,13 @@ where
         })
     }
 
-    /// A case with other numbers, on this mesh with its nodes moved.
-    pub fn point(&self, file: CaseFile) -> Result<CasePoint<D>, GradientError> {
+    /// A case with other numbers at a moment, on this mesh with its nodes moved.
+    pub fn point(&self, file: CaseFile, moment: &Moment) -> Result<CasePoint<D>, GradientError> {
         let problem = build_problem(&file.model, &self.mesh)?;
-        let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+        let poses = Moment::START.poses(&problem);
+        let pairs = poses.iter().zip(moment.poses(&problem));
+        let moves: Vec<RigidMove> =
+            pairs.map(|(start, now)| RigidMove::between(start, &now)).collect();
         let nearest = Dimension::<D>::nearest_on_bodies(&file.model)?;
         let given = |boundary: BoundaryId, _: NodeId, at: &Point<D>| {
             let Some(body) = self.bodies[boundary.index()] else { return Point::<D>::zeros() };
@@ -76,7 +80,8 @@ where
             let carried =
                 here + RigidMove::between(&self.poses[body], &poses[body]).displacement(&here);
             // Nodes need not be on the surface, but stay as far from it
-            nearest[body](&carried) - self.nearest[body](&here)
+            let way = nearest[body](&carried) - self.nearest[body](&here);
+            way + moves[body].displacement(&(here + way))
         };
         let mut way = 0.0f64;
         for facet in &self.mesh.facets {
@@ -86,15 +91,20 @@ where
         }
         let mut mesh = self.mesh.clone();
         if way == 0.0 {
-            return CasePoint::new(file, problem, mesh, &self.shifts);
+            return CasePoint::new(file, problem, mesh, &self.shifts, moment);
         }
         let moved = self.motion.displacements(&given)?;
         mesh.nodes.iter_mut().zip(&moved).for_each(|(node, way)| *node += way);
         // Volumes may be those of the mesh
         let problem = build_problem(&file.model, &mesh)?;
-        let mut point = CasePoint::new(file, problem, mesh, &self.shifts)?;
+        let mut point = CasePoint::new(file, problem, mesh, &self.shifts, moment)?;
         point.moved = moved;
         Ok(point)
+    }
+
+    /// Shortest edge on a body (m).
+    pub fn shortest_edge(&self) -> f64 {
+        self.shortest_edge
     }
 
     /// Largest way of a node on a body between two cases, over the shortest edge on a body.

@@ -1,4 +1,4 @@
-//! Gradients of steady flows: what quantities change by with numbers of a case, by adjoint flows.
+//! Gradients of steady flows: what quantities change by with numbers of a case, by adjoint flows; `in_time` has those of motions.
 //!
 //! With free unknowns y, their equations r(y, p) = P^T R = 0 and a quantity J(y, p), each number p of a case has
 //! dJ/dp = d/dp (J - lambda . r) with y kept, (dr/dy)^T lambda = dJ/dy. The system is solved once, its transpose once for
@@ -11,7 +11,9 @@ mod by_numbers;
 mod differences;
 mod error;
 mod flow;
+mod in_time;
 mod mesh_of_bodies;
+mod moment;
 mod objective;
 mod parameter;
 mod point;

@@ -4,11 +4,15 @@ use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 
 use super::error::GradientError;
+use super::moment::Moment;
 use crate::algebra::AffineConstraints;
 use crate::body::{MeshPoses, Pose};
 use crate::case::{CaseFile, Model, Steady, TimeSettings};
 use crate::coupling::{BodiesAt, BodyShapes, Configuration, Problem, RigidBodyEquations};
 use crate::run::RunError;
+
+/// How a flow without inertia is solved: its equations are linear, but for a viscosity that depends on the rate of shear.
+const LINEAR: Steady = Steady { tolerance: 1e-11, max_iterations: 50 };
 
 /// A case with its mesh, whose nodes have followed its bodies.
 pub(super) struct CasePoint<const D: usize> {
@@ -31,25 +35,23 @@ pub(super) struct CasePoint<const D: usize> {
 }
 
 impl<const D: usize> CasePoint<D> {
-    /// Of a problem on its mesh.
+    /// Of a problem on its mesh, whose nodes are where its bodies are at a moment.
     pub fn new(
         file: CaseFile,
         problem: Problem<D>,
         mesh: Mesh<D>,
         shifts: &[Vector3<f64>],
+        moment: &Moment,
     ) -> Result<Self, GradientError> {
-        let TimeSettings::Steady(settings) = file.case().time.clone() else {
-            return Err(GradientError::refused(
-                &file,
-                "time",
-                "the flow of the case is not steady".to_owned(),
-                "gradients are those of steady flows: write [time.steady]",
-            ));
+        let settings = match &file.case().time {
+            TimeSettings::Steady(settings) => settings.clone(),
+            TimeSettings::Unsteady(_) => LINEAR,
         };
-        let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+        let poses = moment.poses(&problem);
         let in_mesh = MeshPoses::seen_from(&Vector3::zeros(), &poses, shifts);
-        let shapes = BodyShapes::at(&problem.bodies, 0.0).map_err(RunError::from)?;
-        let equations = RigidBodyEquations::steady(&problem, &poses, 0.0);
+        // Bodies that deform are refused, so that it is gaits and boundary values that are of this time
+        let shapes = BodyShapes::at(&problem.bodies, moment.rates_at).map_err(RunError::from)?;
+        let equations = RigidBodyEquations::steady(&problem, &poses, moment.rates_at);
         Ok(Self {
             model: file.model,
             problem,
@@ -61,6 +63,11 @@ impl<const D: usize> CasePoint<D> {
             shapes,
             equations,
         })
+    }
+
+    /// Time of boundary values, gaits and loads (s).
+    pub fn time(&self) -> f64 {
+        self.shapes.time()
     }
 
     /// The bodies in the mesh.
@@ -80,7 +87,7 @@ impl<const D: usize> CasePoint<D> {
             mesh: &self.mesh,
             constraints,
             bodies: &self.equations,
-            mean_flow: self.problem.mean_flow_at(0.0),
+            mean_flow: self.problem.mean_flow_at(self.time()),
         }
     }
 }

@@ -4,9 +4,11 @@ use super::adjoint::{Derivatives, Ends, derivatives, ends};
 use super::differences::Differences;
 use super::error::GradientError;
 use super::flow::BaseFlow;
+use super::in_time::{Changed, Motions, is_in_time, refuse_in_time};
+use super::moment::Moment;
 use super::objective::objectives;
 use super::parameter::{Parameter, parameters};
-use crate::case::{CaseError, CaseFile};
+use crate::case::{CaseError, CaseFile, Column};
 use crate::run::{CaseMesh, Dimension};
 
 /// Reads a case with further settings, `KEY=VALUE` each.
@@ -73,8 +75,12 @@ fn gradients_in<const D: usize>(
 where
     Dimension<D>: CaseMesh<D>,
 {
+    refuse_in_time(file)?;
     let columns = objectives(&file.model, task.of)?;
     let parameters = parameters(file, task.by)?;
+    if is_in_time(file) {
+        return gradients_in_time::<D>(task, file, &columns, &parameters);
+    }
     let mut flow = BaseFlow::<D>::solve(file, columns)?;
     let mut found = derivatives(&mut flow, task.of, parameters.len(), &mut |flow, nth| {
         ends_by(task, flow, &parameters[nth])
@@ -101,8 +107,55 @@ fn ends_by<const D: usize>(
 where
     Dimension<D>: CaseMesh<D>,
 {
-    ends(flow, parameter.step, &|change| {
-        let settings = ["numbers={}".to_owned(), parameter.setting(parameter.value + change)];
-        (task.read)(&settings)
+    ends(&flow.mesh, &flow.point, parameter.step, &|change| {
+        flow.mesh.point(changed(task, parameter, change)?, &Moment::START)
     })
+}
+
+/// The case with a number larger by so much.
+fn changed(
+    task: &GradientTask<'_>,
+    parameter: &Parameter,
+    change: f64,
+) -> Result<CaseFile, CaseError> {
+    let settings = ["numbers={}".to_owned(), parameter.setting(parameter.value + change)];
+    (task.read)(&settings)
+}
+
+/// Of the end of a motion.
+fn gradients_in_time<const D: usize>(
+    task: &GradientTask<'_>,
+    file: &CaseFile,
+    columns: &[Column],
+    parameters: &[Parameter],
+) -> Result<Vec<Derivatives>, GradientError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    let motions = Motions::<D>::new(file)?;
+    let longer: Vec<Parameter> = parameters.iter().map(Parameter::with_longer_step).collect();
+    let cases = |parameters: &[Parameter]| -> Vec<_> {
+        let of = |parameter: &Parameter| {
+            let parameter = parameter.clone();
+            move |change: f64| changed(task, &parameter, change)
+        };
+        parameters.iter().map(of).collect()
+    };
+    let case_of = cases(parameters);
+    let numbers: Vec<Changed<'_>> = case_of
+        .iter()
+        .zip(parameters)
+        .map(|(case, parameter)| Changed { case, step: parameter.step })
+        .collect();
+    let mut found = motions.derivatives(file, columns, &numbers)?;
+    if task.checks {
+        for (case, parameter) in case_of.iter().zip(&longer) {
+            let number = Changed { case, step: parameter.step };
+            let by_number = motions.differences(file, columns, &number)?;
+            for (derivatives, difference) in found.iter_mut().zip(by_number) {
+                derivatives.differences.push(difference);
+            }
+        }
+    }
+    Ok(found)
 }

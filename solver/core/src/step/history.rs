@@ -18,7 +18,7 @@ use crate::structure::Held;
 use crate::time::Bdf;
 
 /// Part of a step by which rates at its ends are evaluated inside it: those that jump there have two.
-pub(super) const INSIDE: f64 = 1e-9;
+pub const INSIDE: f64 = 1e-9;
 
 /// What a step knows before it is made.
 pub struct StepHistory<const D: usize> {

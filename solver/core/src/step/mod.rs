@@ -25,6 +25,8 @@ mod workspace;
 
 pub use accuracy::error_of_second_difference;
 pub use error::{FlowError, StepError, at_step};
+pub use explicit::{STAGES, Stage};
+pub use history::INSIDE;
 pub use mesh_path::{MeshPath, NodePath};
 pub use newton::{
     SteadyFailure, SteadyFlow, SteadyTask, solve_steady, steady_convection, steady_terms,

@@ -1,4 +1,5 @@
-//! `optimise`: numbers of a case that make its objective large, of an elastic body without a flow or of a steady flow.
+//! `optimise`: numbers of a case that make its objective large, of an elastic body without a flow, of a steady flow, or of
+//! the end of a run without inertia.
 
 use std::path::{Path, PathBuf};
 

@@ -11,16 +11,15 @@ use super::Findings;
 use crate::read::CaseFile;
 use crate::spec::formula::mistake_in_name;
 use crate::text::nearest::nearest;
-use crate::{FlowConstraint, FlowObjective, FlowOptimisation, ObjectiveExpression, TimeSettings};
+use crate::{
+    FlowConstraint, FlowObjective, FlowOptimisation, NoGradientInTime, ObjectiveExpression,
+    no_gradient_in_time,
+};
 
 pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
     let Some(spec) = &findings.case().optimisation else { return };
-    if let TimeSettings::Unsteady(_) = findings.case().time {
-        findings.error(
-            "optimisation",
-            "searches follow gradients, which are those of steady flows, and this one is not steady".to_owned(),
-            "write [time.steady], or leave out [optimisation]",
-        );
+    if let Some(NoGradientInTime { key, message, help }) = no_gradient_in_time(findings.case()) {
+        findings.error(key, format!("[optimisation] follows gradients, and {message}"), help);
     }
     check_objective(findings, &spec.objective);
     parameters::check(findings, file, spec);

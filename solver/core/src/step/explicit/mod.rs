@@ -23,11 +23,11 @@ use crate::state::{NewLevel, PowerShare, PropulsionStep, State, StepErrors};
 const ROUNDING: f64 = 1e-12;
 
 /// A stage after the first.
-struct Stage {
+pub struct Stage {
     /// Its time as a part of the step.
-    part: f64,
+    pub part: f64,
     /// Weights of the stages before in its poses.
-    weights: &'static [f64],
+    pub weights: &'static [f64],
 }
 
 impl Stage {
@@ -39,7 +39,8 @@ impl Stage {
     }
 }
 
-const STAGES: [Stage; 3] = [
+/// The stages after the first; the last one is at the end.
+pub const STAGES: [Stage; 3] = [
     Stage { part: 0.5, weights: &[0.5] },
     Stage { part: 0.75, weights: &[0.0, 0.75] },
     Stage { part: 1.0, weights: &[2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0] },

@@ -1,0 +1,161 @@
+//! Gradients of motions without inertia: what places of bodies, ways and work of swimmers at the end of a run change by with
+//! numbers of its case.
+//!
+//! dq/dt = V(q, t, p) is integrated by the scheme of runs (`step/explicit`), one Stokes flow a stage. By the adjoint flows of
+//! its velocities and powers, each of these has V_q and V_p, so that the bodies of the case with a number larger or smaller by
+//! dp are where V + V_q dq + V_p dp takes them (tangents in time): both are integrated beside those of the case itself, with
+//! their own strokes, joints and averages over cycles, and what they differ by is the derivative. It is that of the discrete
+//! scheme, but for the square of dp. Meshes follow the bodies from the start.
+
+mod course;
+mod march;
+mod refusals;
+mod unknowns;
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use self::march::{March, Sides};
+pub(super) use self::refusals::refuse_in_time;
+use super::adjoint::{Derivatives, Ends, ends};
+use super::error::GradientError;
+use super::flow::BaseFlow;
+use super::mesh_of_bodies::MeshOfBodies;
+use super::moment::Moment;
+use crate::case::{CaseError, CaseFile, Column, Source, SwimmerQuantity, TimeSettings, Unsteady};
+use crate::run::{CaseMesh, Dimension};
+use crate::step::Workspace;
+
+/// A number of a case: the case with it larger by so much, and a small step of it.
+pub(super) struct Changed<'a> {
+    /// The case.
+    pub case: &'a dyn Fn(f64) -> Result<CaseFile, CaseError>,
+    /// The step.
+    pub step: f64,
+}
+
+/// The motions of a case for one set of its numbers after the other, on the mesh of its start.
+pub(super) struct Motions<const D: usize> {
+    mesh: Rc<MeshOfBodies<D>>,
+    work: RefCell<Option<Workspace<D>>>,
+}
+
+/// Whether what is asked of a case is asked of a motion: of the end of a run.
+pub(super) fn is_in_time(file: &CaseFile) -> bool {
+    matches!(file.case().time, TimeSettings::Unsteady(_))
+}
+
+impl<const D: usize> Motions<D>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    /// Makes the mesh.
+    pub fn new(file: &CaseFile) -> Result<Self, GradientError> {
+        refuse_in_time(file)?;
+        let (mesh, work) = BaseFlow::<D>::mesh_and_system(file)?;
+        Ok(Self { mesh, work: RefCell::new(Some(work)) })
+    }
+
+    /// Quantities at the end of the run of a case, and their derivatives by numbers.
+    pub fn derivatives(
+        &self,
+        file: &CaseFile,
+        columns: &[Column],
+        numbers: &[Changed<'_>],
+    ) -> Result<Vec<Derivatives>, GradientError> {
+        let numbers: Vec<Sides> =
+            numbers.iter().map(|number| self.sides(file, number)).collect::<Result<_, _>>()?;
+        let march = self.march(file, columns, &numbers)?;
+        let of = |column: &Column| {
+            let (value, by) = march.value(column);
+            let size = value.abs();
+            Derivatives { of: column.name.clone(), value, size, by, differences: Vec::new() }
+        };
+        let found: Vec<Derivatives> = columns.iter().map(of).collect();
+        self.work.replace(march.into_work());
+        match found.iter().find(|found| !found.value.is_finite()) {
+            Some(found) => Err(without_value(file, &found.of)),
+            None => Ok(found),
+        }
+    }
+
+    /// Central differences of quantities between complete motions of the case at both sides of a number.
+    pub fn differences(
+        &self,
+        file: &CaseFile,
+        columns: &[Column],
+        number: &Changed<'_>,
+    ) -> Result<Vec<f64>, GradientError> {
+        let Sides { files, step } = self.sides(file, number)?;
+        let mut values = Vec::new();
+        for file in &files {
+            let march = self.march(file, columns, &[])?;
+            values.push(columns.iter().map(|column| march.value(column).0).collect::<Vec<f64>>());
+            self.work.replace(march.into_work());
+        }
+        let pairs = values[0].iter().zip(&values[1]);
+        Ok(pairs.map(|(below, above)| (above - below) / (2.0 * step)).collect())
+    }
+
+    /// The motion of a case, at its end.
+    fn march<'a>(
+        &'a self,
+        file: &'a CaseFile,
+        columns: &[Column],
+        numbers: &'a [Sides],
+    ) -> Result<March<'a, D>, GradientError> {
+        let work = match self.work.take() {
+            Some(work) => work,
+            // A flow that failed has kept it
+            None => BaseFlow::<D>::mesh_and_system(file)?.1,
+        };
+        let mut march = March::new(&self.mesh, work, file, numbers, needs_powers(columns))?;
+        march.run(settings_of(file)?)?;
+        Ok(march)
+    }
+
+    /// The case at both sides of a number, near enough for bodies to be moved little.
+    fn sides(&self, file: &CaseFile, number: &Changed<'_>) -> Result<Sides, GradientError> {
+        let here = self.mesh.point(file.clone(), &Moment::START)?;
+        let at = |change: f64| self.mesh.point((number.case)(change)?, &Moment::START);
+        let Ends { step, .. } = ends(&self.mesh, &here, number.step, &at)?;
+        Ok(Sides { files: [(number.case)(-step)?, (number.case)(step)?], step })
+    }
+}
+
+fn settings_of(file: &CaseFile) -> Result<&Unsteady, GradientError> {
+    match &file.case().time {
+        TimeSettings::Unsteady(settings) => Ok(settings),
+        TimeSettings::Steady(_) => Err(GradientError::refused(
+            file,
+            "time",
+            "the numbers of the case make it steady".to_owned(),
+            "write [time.unsteady] for all values of its numbers",
+        )),
+    }
+}
+
+/// Whether the work of swimmers counts in quantities.
+fn needs_powers(columns: &[Column]) -> bool {
+    let is_of_work = |column: &Column| {
+        matches!(
+            column.source,
+            Source::Swimmer(
+                _,
+                SwimmerQuantity::CyclePower
+                    | SwimmerQuantity::CycleCostOfTransport
+                    | SwimmerQuantity::CycleLighthillEfficiency
+            )
+        )
+    };
+    columns.iter().any(is_of_work)
+}
+
+fn without_value(file: &CaseFile, name: &str) -> GradientError {
+    GradientError::refused(
+        file,
+        "time.unsteady.end",
+        format!("`{name}` has no value at the end of the run"),
+        "averages over a cycle ask for a whole one: let the run go on for a period at least",
+    )
+}
