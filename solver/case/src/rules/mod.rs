@@ -4,7 +4,7 @@
 //! its key; the other files have what relates keys to each other, and names to what they name. Nothing
 //! is meshed or solved.
 
-mod body;
+pub(crate) mod body;
 mod command;
 mod contact;
 mod declared;

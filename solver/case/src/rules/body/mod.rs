@@ -7,7 +7,7 @@ mod joints_in_space;
 mod midline;
 pub(super) mod motion;
 mod polygon;
-pub(super) mod rod;
+pub(crate) mod rod;
 mod skin;
 mod solid;
 mod spring;

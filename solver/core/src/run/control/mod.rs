@@ -8,6 +8,7 @@ use super::error::RunError;
 use super::run::Run;
 use super::simulation::Simulation;
 use super::step_control::Piece;
+use crate::case::{BentByLoad, bent_by_loads, significant};
 use crate::step::StepError;
 
 /// Part of a step by which a discontinuity may be off and still be at its end.
@@ -38,6 +39,20 @@ fn step_size_underflow<const D: usize>(
     let (step, time, reason) = (state.step + 1, state.time, error.to_string());
     if let Some(trouble) = run.pace.trouble() {
         let advice = format!("; {trouble}; the last flow is in failure/");
+        return RunError::StepSizeUnderflow { step, time, smallest, reason, advice };
+    }
+    // Steps of any size fail where a load bends a rod too sharply, whatever is near
+    let mut bent = run.model.bodies.iter().flat_map(|body| {
+        let all = bent_by_loads(body).into_iter().filter(BentByLoad::is_too_sharp);
+        all.map(|one| (&body.name, one))
+    });
+    if let Some((name, BentByLoad { end, by, curvature, half_width })) = bent.next() {
+        let (end, radius) = (end.name(), significant(1.0 / curvature));
+        let half_width = significant(half_width);
+        let advice = format!(
+            "; the {by} at the {end} of `{name}` bends it to a radius of curvature of {radius}, and half of its thickness \
+             is {half_width}: load it less, or make it stiffer or thinner; the last state is in failure/"
+        );
         return RunError::StepSizeUnderflow { step, time, smallest, reason, advice };
     }
     // How far the fastest body would go in the smallest step (m)

@@ -2,7 +2,7 @@
 
 use crate::rules::Findings;
 use crate::rules::body::joints::stroke as numbers_of_stroke;
-use crate::{Body, EndLoadSpec, Hold, LoadedEnd, RodEnd};
+use crate::{BentByLoad, Body, EndLoadSpec, Hold, LoadedEnd, RodEnd, bent_by_loads, significant};
 
 /// Components of a force in the plane.
 const COMPONENTS: usize = 2;
@@ -23,6 +23,22 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
         if end == RodEnd::Base {
             held(findings, &key, body, load);
         }
+    }
+    for BentByLoad { end, by, curvature, half_width } in
+        bent_by_loads(body).into_iter().filter(BentByLoad::is_too_sharp)
+    {
+        findings.warning(
+            &format!("{key}.{}.{by}", end.name()),
+            format!(
+                "the {by} at the {} of \"{}\" bends it to a radius of curvature of {}, and half of its thickness is \
+                 {}",
+                end.name(),
+                body.name,
+                significant(1.0 / curvature),
+                significant(half_width)
+            ),
+            "load it less, or make it stiffer or thinner: a rod that is bent so sharply is no slender body",
+        );
     }
 }
 

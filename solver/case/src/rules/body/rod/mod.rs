@@ -2,6 +2,7 @@
 
 mod activation;
 mod attached;
+pub mod bent;
 pub(in crate::rules) mod beside;
 mod end_load;
 mod slender;
@@ -300,6 +301,29 @@ name = 'b'
         ];
         for (body, key) in cases {
             assert_eq!(problems(&body, Severity::Error), [format!("body.1.{key}")], "{body}");
+        }
+    }
+
+    #[test]
+    fn loads_that_bend_a_rod_too_sharply_are_warned_about() {
+        let force = |force: f64| {
+            format!("load.tip.force = [{{ constant = 0.0 }}, {{ constant = {force} }}]")
+        };
+        let moment = |moment: f64| format!("load.tip.moment.constant = {moment}");
+        for (load, hold, key) in [
+            (moment(-90.0), "", Some("moment")),
+            (moment(-1.0), "", None),
+            (force(900.0), "\nattached.hold = 'clamped'", Some("force")),
+            (force(1.0), "\nattached.hold = 'clamped'", None),
+            (force(900.0), "\nattached.hold = 'hinged'", None),
+        ] {
+            let found = problems(
+                &fish(&format!("rod = {{ bending = 1.0, {load} }}{hold}")),
+                Severity::Warning,
+            );
+            let wanted = key.map(|key| format!("body.1.rod.load.tip.{key}"));
+            let own: Vec<String> = found.into_iter().filter(|key| key.contains("load")).collect();
+            assert_eq!(own, Vec::from_iter(wanted), "{load}{hold}");
         }
     }
 
