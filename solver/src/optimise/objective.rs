@@ -57,6 +57,26 @@ impl Objective {
         Ok(Objectively { value: self.expression(values)?, by: by? })
     }
 
+    /// What it is made of, with the quantities it has at these values.
+    pub fn in_words(&self, values: &[f64]) -> String {
+        let of = |quantity: &String| {
+            let own = self.quantities.iter().position(|one| one == quantity);
+            own.map_or(f64::NAN, |own| values[own])
+        };
+        match &self.spec {
+            FlowObjective::Expression(expression) => {
+                let each = expression.quantities.iter();
+                let each = each.map(|(name, one)| format!("{name} = {one} = {:.3e}", of(one)));
+                let each: Vec<String> = each.collect();
+                format!("the objective \"{}\", with {},", expression.value, each.join(", "))
+            }
+            _ => {
+                let each = self.quantities.iter().map(|one| format!("{one} = {:.3e}", of(one)));
+                format!("the objective, of {},", each.collect::<Vec<_>>().join(", "))
+            }
+        }
+    }
+
     /// What each quantity counts in a sum.
     fn weights(&self) -> Vec<f64> {
         let parts = self.spec.quantities();
@@ -117,6 +137,11 @@ mod tests {
         assert!(
             (found.by[0] + 12.0).abs() < 1e-8 && (found.by[1] - 12.0).abs() < 1e-8,
             "{found:?}"
+        );
+        assert_eq!(
+            objective.in_words(&[0.0, 4.0]),
+            "the objective \"k * u * w / p\", with p = a.power = 0.000e0, u = a.velocity.x = 4.000e0, \
+             w = a.velocity.x = 4.000e0,"
         );
     }
 }

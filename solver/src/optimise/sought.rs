@@ -92,8 +92,13 @@ impl<'a> OnOneMesh<'a> {
             -parts.map(|(quantity, by)| by * quantity.by[nth]).sum::<f64>()
         };
         let slopes: Vec<f64> = (0..values.len()).map(slope).collect();
-        if !found.value.is_finite() || !slopes.iter().all(|slope| slope.is_finite()) {
-            return Err(format!("the objective is {}, and its slopes are {slopes:?}", found.value));
+        if !found.value.is_finite() {
+            return Err(format!("{} is {}", self.objective.in_words(&own), found.value));
+        }
+        if let Some(nth) = slopes.iter().position(|slope| !slope.is_finite()) {
+            let name = &self.numbers.bounded()[nth].name;
+            let (objective, slope) = (self.objective.in_words(&own), slopes[nth]);
+            return Err(format!("{objective} has no slope by \"{name}\", which is {slope}"));
         }
         // A search makes small what it is given
         Ok(Evaluated { values: values.to_vec(), objective: -found.value, slopes })

@@ -6,7 +6,7 @@ use std::fmt::Display;
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction, Executor,
-    FirstOrderState, Gradient, Lbfgsb, Termination,
+    FirstOrderState, Gradient, Lbfgsb, NumericalFailure, Stall, Termination,
 };
 
 use super::{Bounded, SearchError};
@@ -215,11 +215,23 @@ pub fn minimise<E: Display>(
         (None, Err(error)) => Ended::Failed(error.to_string()),
         (None, Ok(result)) => match result.report.termination {
             Termination::Converged(_) => Ended::Converged,
-            other => Ended::Failed(format!("{other:?}")),
+            // Of iterations, each of which takes an evaluation
+            Termination::Limit(_) => Ended::Evaluations,
+            other => Ended::Failed(in_words(&other)),
         },
     };
     let all = state.into_inner().all;
     let best = all.iter().min_by(|a, b| a.objective.total_cmp(&b.objective)).cloned();
     let best = best.ok_or_else(|| SearchError::Start("nothing was evaluated".to_owned()))?;
     Ok(Found { best, all, ended })
+}
+
+/// Why the method stopped without having converged.
+fn in_words(end: &Termination) -> String {
+    match end {
+        Termination::Stalled(Stall::Numerical { message, .. })
+        | Termination::Failed(NumericalFailure::Solver { message, .. }) => message.clone(),
+        Termination::Failed(NumericalFailure::Inner { report }) => in_words(&report.termination),
+        _ => "the method stopped before it had converged".to_owned(),
+    }
 }

@@ -53,7 +53,12 @@ pub fn search(
     let (begun, n_known) = (Instant::now(), known.len());
     let settings = Search { known, ..settings.clone() };
     let found = minimise(parameters, &settings, |values| {
-        let last = sought.evaluate(values)?;
+        let last = sought.evaluate(values).and_then(|found| with_value(parameters, found));
+        // Where it starts, `SearchError::Start` says so
+        let last = last.map_err(|said| match n_evaluations {
+            0 => said,
+            _ => format!("at {}: {said}", place(parameters, values)),
+        })?;
         // One of which a part was left as it was is none
         check_whole().map_err(|stopped| stopped.to_string())?;
         journal.add(&last).map_err(|error| error.to_string())?;
@@ -71,4 +76,24 @@ pub fn search(
     });
     check_whole()?;
     found
+}
+
+/// Values of the parameters, by their names.
+fn place(parameters: &[Bounded], values: &[f64]) -> String {
+    let each = parameters.iter().zip(values).map(|(one, value)| format!("{} = {value}", one.name));
+    each.collect::<Vec<_>>().join(", ")
+}
+
+/// An evaluation all numbers of which are finite.
+fn with_value(parameters: &[Bounded], found: Evaluated) -> Result<Evaluated, String> {
+    if !found.objective.is_finite() {
+        return Err(format!("the objective has no value, it is {}", found.objective));
+    }
+    let wrong = parameters.iter().zip(&found.slopes).find(|(_, slope)| !slope.is_finite());
+    match wrong {
+        Some((one, slope)) => {
+            Err(format!("the slope of the objective by {} has no value, it is {slope}", one.name))
+        }
+        None => Ok(found),
+    }
 }

@@ -29,6 +29,20 @@ pub enum SoftError {
     /// A plan is not one: steps, substeps, stretches.
     #[error("{0}")]
     Plan(String),
+    /// An objective of way over work has no value.
+    #[error(
+        "a way over work has no value where there is no work: the way is {way:.3e} m, the work that the \
+         commands put into the fibres {work:.3e} J, that of `standing_power` {standing:.3e} J; start where \
+         fibres do work, give a `standing_power`, or seek `travel`"
+    )]
+    NoWork {
+        /// The way (m).
+        way: f64,
+        /// The work of the commands (J).
+        work: f64,
+        /// The work of the power that is always spent (J).
+        standing: f64,
+    },
     /// A recording cannot be used: the row counts from 1, the header being row 1.
     #[error("{file}, row {row}: {what}")]
     Record {

@@ -45,18 +45,27 @@ pub(super) struct MadeLarge {
 }
 
 /// What is made large by way and work in a time (s).
+///
+/// # Errors
+/// [`SoftError::NoWork`]: a way over no work has no value.
 pub(super) fn made_large(
     spec: &ObjectiveSpec,
     time: f64,
     WayAndWork { way, work }: WayAndWork,
-) -> MadeLarge {
+) -> Result<MadeLarge, SoftError> {
     match spec {
         ObjectiveSpec::Travel { cost_of_work, .. } => {
-            MadeLarge { value: way - cost_of_work * work, by_way: 1.0, by_work: -cost_of_work }
+            Ok(MadeLarge { value: way - cost_of_work * work, by_way: 1.0, by_work: -cost_of_work })
         }
         ObjectiveSpec::WayPerWork { standing_power, .. } => {
-            let work = work + standing_power * time;
-            MadeLarge { value: way / work, by_way: 1.0 / work, by_work: -way / (work * work) }
+            let standing = standing_power * time;
+            let all = work + standing;
+            if all <= 0.0 {
+                // Without the sign of a zero
+                let [way, work] = [way, work].map(|value| value + 0.0);
+                return Err(SoftError::NoWork { way, work, standing });
+            }
+            Ok(MadeLarge { value: way / all, by_way: 1.0 / all, by_work: -way / (all * all) })
         }
     }
 }
@@ -80,7 +89,11 @@ where
     }
 
     /// What is made large, of a motion, and its derivatives by way and work.
-    fn made_large(&self, objective: &ObjectiveSpec, motion: &Trajectory) -> MadeLarge {
+    fn made_large(
+        &self,
+        objective: &ObjectiveSpec,
+        motion: &Trajectory,
+    ) -> Result<MadeLarge, SoftError> {
         let Plan { frame, targets, .. } = &self.model.plan;
         let time = frame * targets.len() as f64 - objective.after().unwrap_or(0.0);
         made_large(objective, time, self.way_and_work(objective, motion))
@@ -89,32 +102,32 @@ where
     /// The objective of the model as it is: a loss, or what is made large.
     ///
     /// # Errors
-    /// Those of a motion.
+    /// Those of a motion, and where the objective has no value.
     pub fn value(&self) -> Result<f64, SoftError> {
         let Model { body, plan, .. } = &self.model;
         let motion = Bodies::simulate(body, plan)?;
         Ok(match &self.kind {
             Kind::Calibration(markers) => body.value(&motion, markers),
-            Kind::Optimisation(objective) => self.made_large(objective, &motion).value,
+            Kind::Optimisation(objective) => self.made_large(objective, &motion)?.value,
         })
     }
 
     /// The objective as it is made small, and what its gradient begins from.
-    fn seeds(&self, motion: &Trajectory) -> Begun {
+    fn seeds(&self, motion: &Trajectory) -> Result<Begun, SoftError> {
         let Model { body, plan, .. } = &self.model;
         let mut seeds = body.no_seeds(plan);
         match &self.kind {
             Kind::Calibration(markers) => {
                 let objective = body.add_seeds(motion, markers, 1.0, &mut seeds);
-                Begun { objective, seeds }
+                Ok(Begun { objective, seeds })
             }
             Kind::Optimisation(objective) => {
-                let MadeLarge { value, by_way, by_work } = self.made_large(objective, motion);
+                let MadeLarge { value, by_way, by_work } = self.made_large(objective, motion)?;
                 // Travel is the way with its sign turned, and what is made small the objective with its
                 body.add_seeds(motion, &self.model.travel(objective), by_way, &mut seeds);
                 let shares = self.model.shares(objective);
                 Bodies::add_work_seeds(body, plan, motion, &shares, -by_work, &mut seeds);
-                Begun { objective: -value, seeds }
+                Ok(Begun { objective: -value, seeds })
             }
         }
     }
@@ -132,7 +145,7 @@ where
         self.set(values)?;
         let Model { body, plan, .. } = &self.model;
         let motion = Bodies::simulate(body, plan)?;
-        let Begun { objective, seeds } = self.seeds(&motion);
+        let Begun { objective, seeds } = self.seeds(&motion)?;
         let gradient = Bodies::gradient(body, plan, &motion, seeds)?;
         let slope = |keys: &Vec<_>| keys.iter().map(|key| self.model.slope(&gradient, *key)).sum();
         let slopes = self.sought.keys.iter().map(slope).collect();

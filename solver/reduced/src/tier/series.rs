@@ -104,10 +104,12 @@ impl<'a> SoFar<'a> {
         self.sum.work += share * work;
     }
 
-    /// The objective up to a time (s): 0 before anything counts.
+    /// The objective up to a time (s): 0 before anything counts, not a number where it has no value.
     fn value(&self, time: f64) -> f64 {
         let counted = (time - self.objective.after().unwrap_or(0.0)).max(0.0);
-        let found = made_large(self.objective, counted, self.sum).value;
-        if self.sum.way == 0.0 && self.sum.work == 0.0 { 0.0 } else { found }
+        if self.sum.way == 0.0 && self.sum.work == 0.0 {
+            return 0.0;
+        }
+        made_large(self.objective, counted, self.sum).map_or(f64::NAN, |found| found.value)
     }
 }
