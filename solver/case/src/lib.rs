@@ -30,7 +30,7 @@ pub use read::schema::schema;
 pub use read::sought::{SOLVED_TABLES, SoughtNumber, numbers_at};
 pub use read::{CaseFile, WrittenNumber};
 pub use rules::body::rod::bent::{BentByLoad, bent_by_loads};
-pub use rules::{at_rest, check, check_flow, check_reduced};
+pub use rules::{at_rest, check, check_flow, check_reduced, check_starts};
 pub use spec::body::axial_vector::AxialVector;
 pub use spec::body::command::{Command, Follower};
 pub use spec::body::gait::{

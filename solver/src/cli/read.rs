@@ -38,6 +38,12 @@ pub fn print_warnings(warnings: &[Diagnostic]) {
     }
 }
 
+/// What keeps something else than a run from being made.
+pub fn as_warnings(errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let warning = |one| Diagnostic { severity: Severity::Warning, ..one };
+    errors.into_iter().map(warning).collect()
+}
+
 /// A case without errors.
 pub struct CheckedCase {
     /// The case.

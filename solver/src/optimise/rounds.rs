@@ -16,7 +16,7 @@ use super::numbers::Numbers;
 use super::objective::Objective;
 use super::optimum::Optimum;
 use super::sought::OnOneMesh;
-use crate::case::{CaseError, CaseFile, Diagnostic, FlowOptimisation, Severity};
+use crate::case::{CaseError, CaseFile, Diagnostic, FlowOptimisation, Severity, check_starts};
 use crate::gradient::Derivatives;
 
 /// Rounds at most, and those of a search that holds something: each of them corrects a multiplier.
@@ -67,7 +67,7 @@ impl FlowSearch {
     /// That of a case.
     ///
     /// # Errors
-    /// [`OptimiseError::Case`]: it has none, or is wrong at its bounds.
+    /// [`OptimiseError::Case`]: it has none, starts beyond its bounds, or is wrong at them.
     pub fn new(file: &CaseFile) -> Result<Self, OptimiseError> {
         let Some(spec) = file.case().optimisation.clone() else {
             let missing = Diagnostic {
@@ -81,6 +81,11 @@ impl FlowSearch {
             return Err(CaseError::Wrong(vec![missing]).into());
         };
         let numbers = Numbers::new(file);
+        let mut outside = check_starts(file);
+        outside.retain(|one| one.key.starts_with("optimisation."));
+        if !outside.is_empty() {
+            return Err(CaseError::Wrong(outside).into());
+        }
         numbers.check_bounds()?;
         let held = Multipliers::quantities(&spec.constraint);
         let objective = Objective::new(&spec.objective, &file.case().define, &held);

@@ -48,6 +48,12 @@ fn what_cannot_be_sought_is_refused_where_it_is_written() {
     assert!(found.contains("did you mean `body.0.center.1`"), "{found}");
     let found = with("[0.5, 1.5]", "[0.1, 1.5]", 65);
     assert!(found.contains("at its bound 0.1") && found.contains("wrong.toml:19"), "{found}");
+    let found = with("[0.5, 1.5]", "[1.4, 1.5]", 65);
+    assert!(found.contains("not between its bounds") && found.contains("wrong.toml:19"), "{found}");
+    // A run is no search
+    let output = alewife(at, &["check", "wrong.toml", "--no-mesh"]);
+    let warned = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && warned.contains("not between its bounds"), "{warned}");
     let found = with("disc.force.x", "disc.surface_force.x", 65);
     assert!(found.contains("not known") && found.contains("wrong.toml:15"), "{found}");
     let found = with("time.steady = {}", "time.unsteady = { step = 0.1, end = 1.0 }", 65);

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use alewife::case::{Case, CaseFile, Severity, check};
+use alewife::case::{Case, CaseFile, Severity, check, check_starts};
 use alewife::reduced::{Calibrated, Deviation, calibrate, check_records};
 
 use super::read;
@@ -170,8 +170,9 @@ kind.chain = { links = [[0.06, 0.015], [0.06, 0.015], [0.06, 0.015]], gap = 0.01
 #[test]
 fn bad_calibrations_are_refused_by_key_and_line() {
     let wrong = |settings: &[&str]| -> Vec<String> {
-        let found = check(&read("eel-calibration", settings));
-        let errors = found.into_iter().filter(|one| one.severity == Severity::Error);
+        let file = read("eel-calibration", settings);
+        let found = check(&file).into_iter().chain(check_starts(&file));
+        let errors = found.filter(|one| one.severity == Severity::Error);
         errors.map(|one| one.key).collect()
     };
     assert!(wrong(&[]).is_empty(), "{:?}", wrong(&[]));

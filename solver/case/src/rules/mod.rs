@@ -88,6 +88,15 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     findings.into_diagnostics()
 }
 
+/// All that keeps the searches of a case, `optimise` and `calibrate`, from starting at its numbers. Runs of it are not kept.
+#[must_use]
+pub fn check_starts(file: &CaseFile) -> Vec<Diagnostic> {
+    let mut findings = Findings::new(file);
+    optimisation::check_starts(&mut findings, file);
+    reduced::calibration::check_starts(&mut findings);
+    findings.into_diagnostics()
+}
+
 /// All that keeps a case from being run by the full solver, whose tables a case with `[reduced]` may leave out.
 #[must_use]
 pub fn check_flow(file: &CaseFile) -> Vec<Diagnostic> {

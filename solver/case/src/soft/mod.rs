@@ -10,4 +10,4 @@ pub mod spec;
 pub use parameters::{KeyError, ParameterKey};
 pub(crate) use read::is_soft;
 pub use read::{BesideFile, OnlyModel, SoftFile, schema};
-pub use rules::check;
+pub use rules::{check, check_starts};

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use alewife_case::soft::SoftFile;
 use alewife_case::soft::search::SearchSettings;
 use alewife_case::soft::spec::{ReferenceOf, SoftCase};
+use alewife_case::soft::{SoftFile, check_starts};
 use alewife_interrupt::check_whole;
 use serde_json::{Value, json};
 
@@ -79,13 +79,18 @@ where
     /// Makes a search of a case ready.
     ///
     /// # Errors
-    /// Those of a model, and where the case has no such search.
+    /// Those of a model, and where the case has no such search, or one that cannot start at its numbers.
     pub fn new(file: &'a SoftFile, which: Which) -> Result<Self, TierError> {
         let model = Model::new(file)?;
         let absent = |what: &str, help: &str| {
             TierError::from(file.error("", format!("the case has no {what}"), help))
         };
         let (parameters, search, kind) = match which {
+        let mut outside = check_starts(file);
+        outside.retain(|one| one.key.starts_with(which.name()));
+        if !outside.is_empty() {
+            return Err(TierError::Case(outside));
+        }
             Which::Calibration => {
                 let help = "add [calibration] with the numbers that are sought";
                 let Some(own) = &file.case.calibration else {

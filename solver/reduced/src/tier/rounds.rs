@@ -4,7 +4,7 @@ use std::path::Path;
 
 use alewife_case::soft::search::SearchSettings;
 use alewife_case::soft::spec::SoftCase;
-use alewife_case::soft::{ParameterKey, SoftFile};
+use alewife_case::soft::{ParameterKey, SoftFile, check_starts};
 
 use super::evaluate::{Kind, Seeker};
 use super::mesh::{Bodies, SolidOf};
@@ -72,8 +72,12 @@ where
     /// The loop of a case.
     ///
     /// # Errors
-    /// Those of a model, and where the case has no calibration or no optimisation.
+    /// Those of a model, and where the case has no calibration or no optimisation, or one that cannot start.
     pub fn new(file: &SoftFile) -> Result<Self, TierError> {
+        let outside = check_starts(file);
+        if !outside.is_empty() {
+            return Err(TierError::Case(outside));
+        }
         let model = Model::new(file)?;
         let (Some(calibration), Some(optimisation)) =
             (&file.case.calibration, &file.case.optimisation)

@@ -9,12 +9,12 @@ use alewife_mesh::Quality;
 use crate::case::soft::SoftFile;
 use crate::case::{
     CaseFile, Convection, Diagnostic, FlowModel, Model, Severity, Sweep, TimeSettings,
-    number_table, printable, significant,
+    check_starts, number_table, printable, significant,
 };
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::facts::{facts, one_line};
 use crate::cli::optimise::search_line;
-use crate::cli::read::{CheckedCase, print_warnings, read_and_check};
+use crate::cli::read::{CheckedCase, as_warnings, print_warnings, read_and_check};
 use crate::cli::soft;
 use crate::cli::style::{self, Ink, on_stdout, say};
 use crate::cli::sweep::check_points;
@@ -59,7 +59,7 @@ fn check_one(argument: &str, settings: &[String], depth: Depth) -> Result<(), Fa
     if let Some(file) = SoftFile::read_if_soft(argument, settings)? {
         return soft::check(&file).map(|_| ());
     }
-    let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
+    let CheckedCase { file, mut warnings } = read_and_check(argument, settings)?;
     let mut text =
         format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), one_line(&file.case().title));
     text += &facts(&file);
@@ -86,6 +86,8 @@ fn check_one(argument: &str, settings: &[String], depth: Depth) -> Result<(), Fa
             _ => tell_of_mesh::<3>(&file, depth)?,
         }
     }
+    // A run can be made at numbers from which a search does not start
+    warnings.extend(as_warnings(check_starts(&file)));
     if !warnings.is_empty() {
         style::complain(&format!("\n{}", style::diagnostics(&warnings)));
     }

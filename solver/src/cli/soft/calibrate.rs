@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use alewife_reduced::tier::Which;
 
 use super::{SearchOptions, hold, not_written, search_failure, seek};
+use crate::case::check_starts;
 use crate::case::soft::SoftFile;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::{print_warnings, read_and_check};
@@ -26,6 +27,11 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
     let checked = read_and_check(options.case(), options.set())?;
     let (file, warnings) = (checked.file, checked.warnings);
     print_warnings(&warnings);
+    let mut outside = check_starts(&file);
+    outside.retain(|one| one.key.starts_with("calibration."));
+    if !outside.is_empty() {
+        return Err(Failure::wrong(&outside));
+    }
     let default = || Path::new("runs").join(file.directory_name() + "-calibration");
     let out: PathBuf = options.out().map_or_else(default, Path::to_path_buf);
     check_is_open(&out, options)?;

@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use alewife_reduced::tier::{Bodies, Model, SolidOf};
 
 use crate::case::printable;
-use crate::case::soft::SoftFile;
+use crate::case::soft::{SoftFile, check_starts};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::facts::one_line;
+use crate::cli::read::{as_warnings, print_warnings};
 use crate::cli::style::{Ink, on_stdout, say};
 
 /// Reads a soft case, makes its body, and says what it is; nothing is run.
@@ -17,6 +18,7 @@ pub fn check(file: &SoftFile) -> Result<Exit, Failure> {
         _ => made::<3>(file)?,
     };
     say(&format!("{}\n{text}\nnothing was run", head(file)));
+    print_warnings(&as_warnings(check_starts(file)));
     Ok(Exit::Done)
 }
 

@@ -7,6 +7,7 @@ mod parameters;
 
 use self::constant::check_constant;
 use self::known::check_known;
+pub use self::parameters::check_starts;
 use super::Findings;
 use crate::read::CaseFile;
 use crate::spec::formula::mistake_in_name;

@@ -148,7 +148,7 @@ fn check_values(
 
 /// Bounds and start of a number.
 fn check_bounds(findings: &mut Findings<'_>, number: &SoughtNumber, is_first: bool) {
-    let SoughtNumber { name, at, start, bounds: [lower, upper], scale, .. } = number;
+    let SoughtNumber { name, at, bounds: [lower, upper], scale, .. } = number;
     let key = format!("{at}.bounds");
     if is_first && lower > upper {
         let message = format!("the bounds of \"{name}\" are {lower} and {upper}");
@@ -158,15 +158,20 @@ fn check_bounds(findings: &mut Findings<'_>, number: &SoughtNumber, is_first: bo
     if is_first && scale.is_none() && *lower <= 0.0 {
         let message = format!("the lower bound of \"{name}\" is {lower}, and has no logarithm");
         findings.error(&key, message, "add `scale`, the size of a change that matters");
-        return;
     }
-    if lower <= upper && (start < lower || start > upper) {
-        findings.error(
-            &key,
-            format!(
-                "\"{name}\" starts at {start}, which is not between its bounds {lower} and {upper}"
-            ),
-            "widen them, or add a `start` between them",
-        );
+}
+
+/// Numbers that are not between their bounds, from where a search cannot start; a run can be made with them.
+pub fn check_starts(findings: &mut Findings<'_>, file: &CaseFile) {
+    for SoughtNumber { name, at, start, bounds: [lower, upper], .. } in file.sought() {
+        if lower <= upper && (start < lower || start > upper) {
+            findings.error(
+                &format!("{at}.bounds"),
+                format!(
+                    "\"{name}\" starts at {start}, which is not between its bounds {lower} and {upper}"
+                ),
+                "widen them, or add a `start` between them",
+            );
+        }
     }
 }

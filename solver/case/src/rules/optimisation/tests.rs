@@ -1,6 +1,6 @@
 //! What is said of a search of a steady flow that cannot be made.
 
-use crate::{Case, check};
+use crate::{Case, Severity, check, check_starts};
 
 const CASE: &str = r#"title = "spheroid"
 geometry = "axisymmetric"
@@ -70,12 +70,30 @@ fn expressions_bounds_and_starts_are_checked() {
     refuses("aspect^(2/3)", "aspect*x", &["a place or a time", ":18"]);
     refuses(", \"aspect^(-1/3)\"]", "]", &["2 keys and 1 values", ":18"]);
     refuses("start = 1.2\n", "", &["nothing says where", "start"]);
-    refuses("start = 1.2", "start = 5.0", &["not between its bounds", "start"]);
     refuses("[0.5, 4.0]", "[4.0, 0.5]", &["smaller number first", ":20"]);
     refuses("[0.5, 4.0]", "[0.0, 4.0]", &["no logarithm", "scale", ":20"]);
     refuses("name = \"aspect\"", "name = \"a ratio\"", &["cannot be called", ":16"]);
     refuses("evaluations = 20", "evaluations = 0", &["1 or more", ":22"]);
     refuses("evaluations = 20", "decrease = 0.0", &["positive", ":22"]);
+}
+
+#[test]
+fn numbers_beyond_their_bounds_are_no_start_of_a_search_and_do_not_keep_a_run() {
+    let starts = |from: &str, to: &str| {
+        let file = Case::parse("case.toml", &CASE.replace(from, to), &[]).unwrap();
+        check_starts(&file).iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(starts("start = 1.2", "start = 4.0"), "");
+    let found = starts("start = 1.2", "start = 5.0");
+    assert!(found.contains("not between its bounds") && found.contains("case.toml:20"), "{found}");
+    assert_eq!(said("start = 1.2", "start = 5.0"), "");
+    // So are coefficients of a calibration
+    let setting = "reduced.coefficients.added_mass=5.0".to_owned();
+    let file = Case::read("eel-calibration", &[setting]).unwrap();
+    assert!(check(&file).iter().all(|one| one.severity == Severity::Warning));
+    let found = check_starts(&file);
+    assert_eq!(found[0].key, "calibration.bounds.added_mass");
+    assert!(found[0].message.contains("starts at 5"), "{}", found[0].message);
 }
 
 #[test]

@@ -9,6 +9,14 @@ use self::mistakes::Mistakes;
 use super::read::SoftFile;
 use crate::text::diagnostic::Diagnostic;
 
+/// All that keeps the searches of a soft case from starting at its numbers. Runs of it are not kept.
+#[must_use]
+pub fn check_starts(file: &SoftFile) -> Vec<Diagnostic> {
+    let mut mistakes = Mistakes { file, found: Vec::new() };
+    searches::check_starts(&mut mistakes);
+    mistakes.found
+}
+
 /// All that is wrong in a soft case.
 #[must_use]
 pub fn check(file: &SoftFile) -> Vec<Diagnostic> {

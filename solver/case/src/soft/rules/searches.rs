@@ -129,7 +129,39 @@ fn parameters(mistakes: &mut Mistakes<'_>, of: &str, parameters: &[Parameter]) {
     }
 }
 
-/// Bounds and start of a parameter.
+/// Numbers that are not between their bounds, from where a search cannot start; a motion can be made with them.
+pub fn check_starts(mistakes: &mut Mistakes<'_>) {
+    let case = mistakes.case().clone();
+    let calibrated = case.calibration.iter().map(|own| ("calibration", &own.parameter));
+    let optimised = case.optimisation.iter().map(|own| ("optimisation", &own.parameter));
+    for (of, parameters) in calibrated.chain(optimised) {
+        for (index, parameter) in parameters.iter().enumerate() {
+            starts(mistakes, &format!("{of}.parameter.{index}"), parameter);
+        }
+    }
+}
+
+/// Whether a parameter starts between its bounds, each entry of a list.
+fn starts(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter) {
+    let (name, [lower, upper]) = (&parameter.name, parameter.bounds);
+    let case = mistakes.case().clone();
+    let numbers = parameter.keys.first().and_then(|key| ParameterKey::find(&case, key).ok());
+    for number in numbers.unwrap_or_default() {
+        let Some(start) = parameter.start.or_else(|| number.read(&case)) else { continue };
+        if !(lower <= start && start <= upper) {
+            let message = format!(
+                "\"{name}\" starts at {start}, which is not between its bounds {lower} and {upper}"
+            );
+            let (key, help) = match parameter.start {
+                Some(_) => ("start", "move the start, or widen `bounds`"),
+                None => ("bounds", "widen them, or add a `start` between them"),
+            };
+            return mistakes.add(&format!("{at}.{key}"), message, help);
+        }
+    }
+}
+
+/// Whether bounds can be those of a search.
 fn bounds(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter) {
     let [lower, upper] = parameter.bounds;
     let key = format!("{at}.bounds");
@@ -145,21 +177,6 @@ fn bounds(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter) {
             mistakes.add(&key, message, "add `scale`, the size of a change that matters");
         }
         None => {}
-    }
-    let case = mistakes.case().clone();
-    let numbers = parameter.keys.first().and_then(|key| ParameterKey::find(&case, key).ok());
-    for number in numbers.unwrap_or_default() {
-        let Some(start) = parameter.start.or_else(|| number.read(&case)) else { continue };
-        if !(lower <= start && start <= upper) {
-            let message = format!(
-                "\"{name}\" starts at {start}, which is not between its bounds {lower} and {upper}"
-            );
-            let (key, help) = match parameter.start {
-                Some(_) => (format!("{at}.start"), "move the start, or widen `bounds`"),
-                None => (key, "widen them, or add a `start` between them"),
-            };
-            return mistakes.add(&key, message, help);
-        }
     }
 }
 
