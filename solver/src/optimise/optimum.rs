@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use alewife_reduced::search::{
-    Bounded, Certainties, Found, number_lines, numbers_to_json, write_whole,
+    Bounded, Certainties, Found, Slope, number_lines, numbers_to_json, write_whole,
 };
 use serde_json::{Value, json};
 
@@ -32,6 +32,8 @@ pub struct Optimum {
     pub bounded: Vec<Bounded>,
     /// How well each is determined.
     pub certainties: Certainties,
+    /// The slopes of the objective by each.
+    pub slopes: Vec<Slope>,
     /// Names of the quantities the objective is made of.
     pub names: Vec<String>,
     /// Their values at the best.
@@ -98,7 +100,7 @@ impl Optimum {
             let _ = writeln!(text, "  {name:<width$}  {value:.6e}  from {start:.4e}");
         }
         self.held.iter().for_each(|held| text += &held.line());
-        text + &number_lines(&self.bounded, &self.found, &self.certainties)
+        text + &number_lines(&self.bounded, &self.found, &self.certainties, &self.slopes)
     }
 
     /// The report as JSON.
@@ -118,9 +120,13 @@ impl Optimum {
             "ended": ended.word(),
             "quantities": quantities.collect::<Vec<_>>(),
             "constraints": self.held.iter().map(Held::to_json).collect::<Vec<_>>(),
-            "parameters": numbers_to_json(&self.bounded, &self.found, &self.certainties),
+            "parameters": self.numbers_to_json(),
             "comparison": self.compared().iter().map(Compared::to_json).collect::<Vec<_>>(),
         })
+    }
+
+    fn numbers_to_json(&self) -> Value {
+        numbers_to_json(&self.bounded, &self.found, &self.certainties, &self.slopes)
     }
 
     /// All evaluations as a table: the objective, the numbers and its slopes by them.

@@ -7,7 +7,8 @@ use std::path::Path;
 
 use alewife_interrupt::check_whole;
 use alewife_reduced::search::{
-    Bounded, Ended, Evaluated, Found, Progress, Search, SearchError, certainties, search,
+    Bounded, Ended, Evaluated, Found, Progress, Search, SearchError, Slope, certainties, search,
+    slopes,
 };
 
 use super::constraints::Multipliers;
@@ -80,12 +81,12 @@ impl FlowSearch {
             };
             return Err(CaseError::Wrong(vec![missing]).into());
         };
-        let numbers = Numbers::new(file);
         let mut outside = check_starts(file);
         outside.retain(|one| one.key.starts_with("optimisation."));
         if !outside.is_empty() {
             return Err(CaseError::Wrong(outside).into());
         }
+        let numbers = Numbers::new(file);
         numbers.check_bounds()?;
         let held = Multipliers::quantities(&spec.constraint);
         let objective = Objective::new(&spec.objective, &file.case().define, &held);
@@ -111,6 +112,10 @@ impl FlowSearch {
         let quantities = sought.quantities(&last.best.values)?;
         let values = |of: &[Derivatives]| of.iter().map(|one| one.value).collect();
         let best = sought.objective(&last.best.values).map_err(SearchError::Start)?;
+        let with_held = slopes(&bounded, &last.best, -1.0);
+        let own = slopes(&bounded, &best, -1.0).into_iter().zip(with_held);
+        let is_held = !self.spec.constraint.is_empty();
+        let slope = |(own, with_held)| Slope { own, with_held: is_held.then_some(with_held) };
         Ok(Optimum {
             objective: -best.objective,
             objective_at_start: -objective_at_start,
@@ -120,6 +125,7 @@ impl FlowSearch {
             n_rounds: n,
             bounded,
             certainties,
+            slopes: own.map(slope).collect(),
             names: self.objective.quantities.clone(),
             quantities: values(&quantities),
             quantities_at_start: values(&at_start),

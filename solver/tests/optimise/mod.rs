@@ -174,6 +174,11 @@ fn the_spheroid_of_least_drag_is_that_of_a_volume_that_is_held() {
     assert_eq!(found["objective"].as_f64(), Some(force));
     let volume = found["constraints"][0]["value"].as_f64().unwrap();
     assert!((volume / 60.0 - 1.0).abs() < 1e-4, "{volume}");
+    // Drag grows with each axis, and with the volume held it changes by neither
+    for one in found["parameters"].as_array().unwrap() {
+        let [own, held] = ["slope", "slope_with_constraints"].map(|key| one[key].as_f64().unwrap());
+        assert!(own < -0.05 * of_ball && held.abs() < 0.02 * own.abs(), "{own} {held}");
+    }
     // A volume that no axes within their bounds have
     let large = held("at_least", 400.0) + "[optimisation.search]\nevaluations = 3\n";
     fs::write(at.join("large.toml"), large).unwrap();

@@ -10,8 +10,6 @@ const STEP: f64 = 1e-3;
 /// What is known of a parameter at an optimum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Certainty {
-    /// Change of the objective (in units of it) by a change of the parameter of its scale, or of its logarithm by 1.
-    pub slope: f64,
     /// How far the searched number, the parameter over its scale or its logarithm, may go while the objective
     /// rises by no more than the rise that is asked about, where all other parameters that are free follow;
     /// infinite along a valley. None at a bound.
@@ -66,7 +64,7 @@ pub fn certainties(
             let Bounded { lower, upper, .. } = parameters[k];
             let width = parameters[k].searched(upper) - parameters[k].searched(lower);
             let is_determined = reach.is_none_or(|reach| reach < 0.5 * width);
-            Certainty { slope: slope(best, k), reach, is_determined }
+            Certainty { reach, is_determined }
         })
         .collect())
 }

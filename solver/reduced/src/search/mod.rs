@@ -22,6 +22,6 @@ pub use methods::{Ask, Method, propose};
 pub use minimise::{Ended, Evaluated, Found, Search, minimise};
 pub use progress::{Progress, search};
 pub use proposals::{Effort, HALVINGS, Halt, Objective, Proposal, Proposals};
-pub use report::{Certainties, number_lines, numbers_to_json};
+pub use report::{Certainties, Slope, number_lines, numbers_to_json, slopes};
 pub use sought::Sought;
 pub use whole_file::write_whole;

@@ -17,8 +17,8 @@ use super::output::{fingerprint, write_case};
 use super::parameters::Sought;
 use super::rounds::settings;
 use crate::search::{
-    Bounded, Certainties, Evaluated, Found, Progress, SearchError, certainties, number_lines,
-    numbers_to_json, search, write_whole,
+    Bounded, Certainties, Evaluated, Found, Progress, SearchError, Slope, certainties,
+    number_lines, numbers_to_json, search, slopes, write_whole,
 };
 
 /// The rise of a loss, of that at the start, that counts as one where parameters are called determined.
@@ -44,6 +44,11 @@ impl Which {
             Self::Calibration => "calibration",
             Self::Optimisation => "optimisation",
         }
+    }
+
+    /// The sign of what is made small in what is told: a loss, or an objective that is made large.
+    fn sign(self) -> f64 {
+        if self == Self::Calibration { 1.0 } else { -1.0 }
     }
 }
 
@@ -81,16 +86,16 @@ where
     /// # Errors
     /// Those of a model, and where the case has no such search, or one that cannot start at its numbers.
     pub fn new(file: &'a SoftFile, which: Which) -> Result<Self, TierError> {
-        let model = Model::new(file)?;
-        let absent = |what: &str, help: &str| {
-            TierError::from(file.error("", format!("the case has no {what}"), help))
-        };
-        let (parameters, search, kind) = match which {
         let mut outside = check_starts(file);
         outside.retain(|one| one.key.starts_with(which.name()));
         if !outside.is_empty() {
             return Err(TierError::Case(outside));
         }
+        let model = Model::new(file)?;
+        let absent = |what: &str, help: &str| {
+            TierError::from(file.error("", format!("the case has no {what}"), help))
+        };
+        let (parameters, search, kind) = match which {
             Which::Calibration => {
                 let help = "add [calibration] with the numbers that are sought";
                 let Some(own) = &file.case.calibration else {
@@ -178,11 +183,17 @@ where
 }
 
 impl JobResult {
+    /// The slopes at the best, of the loss or of what was made large.
+    fn slopes(&self, which: Which) -> Vec<Slope> {
+        let slopes = slopes(&self.bounded, &self.found.best, which.sign());
+        slopes.into_iter().map(|own| Slope { own, with_held: None }).collect()
+    }
+
     /// The report, as it is printed.
     #[must_use]
     pub fn text(&self, which: Which) -> String {
         let Found { best, all, ended } = &self.found;
-        let sign = if which == Which::Calibration { 1.0 } else { -1.0 };
+        let sign = which.sign();
         let what = if which == Which::Calibration { "loss" } else { "objective" };
         let first = all.first().map_or(f64::NAN, |first| first.objective);
         let mut text = format!(
@@ -196,7 +207,7 @@ impl JobResult {
         if let Some(WayAndWork { way, work }) = self.way_and_work {
             let _ = writeln!(text, "way {way:.6e}, work {work:.6e}");
         }
-        text += &number_lines(&self.bounded, &self.found, &self.certainties);
+        text += &number_lines(&self.bounded, &self.found, &self.certainties, &self.slopes(which));
         text
     }
 
@@ -204,13 +215,14 @@ impl JobResult {
     #[must_use]
     pub fn to_json(&self, which: Which) -> Value {
         let Found { best, all, ended } = &self.found;
+        let (sign, slopes) = (which.sign(), self.slopes(which));
         json!({
             "search": which.name(),
-            "objective": best.objective,
-            "start": all.first().map(|first| first.objective),
+            "objective": sign * best.objective,
+            "start": all.first().map(|first| sign * first.objective),
             "evaluations": all.len(),
             "ended": ended.word(),
-            "parameters": numbers_to_json(&self.bounded, &self.found, &self.certainties),
+            "parameters": numbers_to_json(&self.bounded, &self.found, &self.certainties, &slopes),
             "comparison": self.compared.iter().map(Compared::to_json).collect::<Vec<_>>(),
         })
     }
