@@ -44,9 +44,9 @@ pub use number::whole;
 pub use planar::{
     Closest, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline, PlacedShape,
     Profile, SMALLEST_GAP, Scattered, SecondMoments, Shape, Shares, SizeField, Spline, Station,
-    Triangles, TubeForm, Wall, check_placement, check_wrapped_placement, closest, closest_features,
-    closest_to_wall, estimate_cells, generate, generate_wrapped, on_meridian, overlap,
-    points_of_outline, thickness, triangulate_inside, wall_features,
+    Triangles, TubeForm, Wall, bulge, check_placement, check_wrapped_placement, closest,
+    closest_features, closest_to_wall, estimate_cells, generate, generate_wrapped, on_meridian,
+    overlap, points_of_outline, thickness, triangulate_inside, wall_features,
 };
 pub use quadrature::GaussRule;
 pub use quality::{CellQuality, Quality, WorstCell};

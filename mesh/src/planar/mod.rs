@@ -22,7 +22,8 @@ pub use closest::{
 pub use domain::Domain;
 pub use gap_query::GapQuery;
 pub use generate::{
-    Scattered, Shares, Triangles, generate, generate_wrapped, points_of_outline, triangulate_inside,
+    Scattered, Shares, Triangles, bulge, generate, generate_wrapped, points_of_outline,
+    triangulate_inside,
 };
 pub use outline::{Nearest, Outline};
 pub use placement::{SMALLEST_GAP, check_placement, check_wrapped_placement};

@@ -26,9 +26,35 @@ pub struct Triangles {
     pub cells: Vec<[usize; 3]>,
 }
 
-/// Points of an outline that are evenly apart, by this size (m) at most; counter-clockwise.
+/// How far the middle of an edge may be from the outline, of the length of the edge: an arc of a quarter of a circle has
+/// 0.21.
+const BULGE: f64 = 0.25;
+
+/// Largest part of that way along the edge, of its length: a place farther off is on another part of the outline.
+const ALONG: f64 = 0.1;
+
+/// Part of an edge that an outline does not follow to which it is halved at most: a tip of any sharpness ends there.
+const SHORTEST: f64 = 1.0 / 64.0;
+
+/// The way (m) of the middle of an edge onto an outline that its ends are on; none where the outline does not follow the
+/// edge, as at a tip sharper than it is long.
+#[must_use]
+pub fn bulge(outline: &Outline, [from, to]: [Point<2>; 2]) -> Option<Point<2>> {
+    let (edge, middle) = (to - from, (from + to) * 0.5);
+    let way = outline.nearest(middle).point - middle;
+    let along = way.dot(&edge).abs();
+    let follows = way.norm() <= BULGE * edge.norm() && along <= ALONG * edge.norm_squared();
+    follows.then_some(way)
+}
+
+/// Points of an outline that are evenly apart, by this size (m) at most, nearer at tips that edges of this size do not
+/// follow; of a polygon its corners, and each side divided evenly. Counter-clockwise.
 #[must_use]
 pub fn points_of_outline(outline: &Outline, size: f64) -> Vec<Point<2>> {
+    if outline.is_polygon() {
+        let sides = 0..outline.n_pieces();
+        return sides.flat_map(|side| points_of_side(outline, side, size)).collect();
+    }
     let period = outline.period();
     let at = |k: usize| outline.at(period * k as f64 / FINE as f64)[0];
     let mut lengths = vec![0.0];
@@ -37,12 +63,41 @@ pub fn points_of_outline(outline: &Outline, size: f64) -> Vec<Point<2>> {
     }
     let length = lengths[FINE];
     let n = whole((length / size).ceil()).clamp(3, FINE);
-    (0..n)
-        .map(|point| {
-            let wanted = length * point as f64 / n as f64;
-            at(lengths.partition_point(|way| *way < wanted))
-        })
-        .collect()
+    let place = |wanted: f64| at(lengths.partition_point(|way| *way < wanted));
+    let step = length / n as f64;
+    let mut points = Vec::new();
+    for nth in 0..n {
+        // By where they begin, as the even ones are, so that these keep their places
+        let ends = [nth, nth + 1].map(|nth| length * nth as f64 / n as f64);
+        points.push(place(ends[0]));
+        halve(outline, &place, ends, SHORTEST * step, &mut points);
+    }
+    points
+}
+
+/// Adds the points between two lengths along an outline that it takes to follow it.
+fn halve(
+    outline: &Outline,
+    place: &dyn Fn(f64) -> Point<2>,
+    ends: [f64; 2],
+    shortest: f64,
+    points: &mut Vec<Point<2>>,
+) {
+    let [from, to] = ends;
+    if bulge(outline, ends.map(place)).is_some() || to - from < 2.0 * shortest {
+        return;
+    }
+    let middle = 0.5 * (from + to);
+    halve(outline, place, [from, middle], shortest, points);
+    points.push(place(middle));
+    halve(outline, place, [middle, to], shortest, points);
+}
+
+/// The corner that a side of a polygon begins with, and points that divide it.
+fn points_of_side(outline: &Outline, side: usize, size: f64) -> Vec<Point<2>> {
+    let [from, to] = [0.0, 1.0].map(|part| outline.evaluate(side, part)[0]);
+    let n = whole(((to - from).norm() / size).ceil()).clamp(1, FINE);
+    (0..n).map(|nth| from + (to - from) * (nth as f64 / n as f64)).collect()
 }
 
 /// Triangles of about this size (m) inside a polygon, whose sides are divided; a corner stays one.
@@ -129,6 +184,7 @@ fn area(corners: &[Point<2>]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{PlacedShape, Shape};
 
     fn filled(corners: &[[f64; 2]], size: f64) -> Result<Triangles, MeshError> {
         let corners: Vec<Point<2>> = corners.iter().map(|x| Point::<2>::from(*x)).collect();
@@ -148,6 +204,32 @@ mod tests {
         let turned: Vec<[f64; 2]> = corners.iter().rev().copied().collect();
         assert!((area_of(&filled(&turned, 0.1).unwrap()) - 1.4).abs() < 1e-12);
         assert_eq!(filled(&corners, 0.1).unwrap(), found);
+    }
+
+    #[test]
+    fn points_of_an_outline_keep_corners_and_follow_tips() {
+        let outline = |shape: Shape| {
+            let center = Point::<2>::zeros();
+            let name = "b".to_owned();
+            Outline::new(&PlacedShape { name, shape, center, angle: 0.0, size: None }).unwrap()
+        };
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.3, 0.3], [0.0, 0.7]];
+        let polygon = outline(Shape::Polygon { points: corners.to_vec() });
+        for size in [0.13, 0.5, 10.0] {
+            let points = points_of_outline(&polygon, size);
+            assert!((area(&points) - 0.255).abs() < 1e-15, "{size}: {}", area(&points));
+            assert!(corners.iter().all(|corner| points.contains(&Point::<2>::from(*corner))));
+        }
+        // All edges of an ellipse are followed, however long they are over its tips
+        let ellipse = outline(Shape::Ellipse { semi_axes: [0.5, 0.1] });
+        for size in [0.05, 0.2, 0.5] {
+            let points = points_of_outline(&ellipse, size);
+            let edges = points.iter().zip(points.iter().cycle().skip(1));
+            assert!(edges.clone().all(|(a, b)| bulge(&ellipse, [*a, *b]).is_some()), "{size}");
+            assert!(edges.clone().all(|(a, b)| (b - a).norm() < 1.001 * size), "{size}");
+        }
+        // Where edges are followed they are even
+        assert_eq!(points_of_outline(&Outline::circle(Point::<2>::zeros(), 1.0), 0.4).len(), 16);
     }
 
     #[test]

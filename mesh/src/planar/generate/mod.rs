@@ -19,7 +19,7 @@ mod scattered;
 mod trial;
 mod triangulation;
 
-pub use interior::{Triangles, points_of_outline, triangulate_inside};
+pub use interior::{Triangles, bulge, points_of_outline, triangulate_inside};
 pub use scattered::{Scattered, Shares};
 
 use edges::BoundaryEdges;
