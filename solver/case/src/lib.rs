@@ -76,6 +76,7 @@ pub use spec::fluid::scalar::{ScalarCondition, ScalarSpec};
 pub use spec::fluid::tracer::{SeedGrid, SeedLine, TracerRegion, TracerSpec};
 pub use spec::fluid::viscosity::{HerschelBulkley, Plateaus, PowerLaw, ShearLaw, ViscositySpec};
 pub use spec::fluid::{FlowModel, Fluid};
+pub use spec::formula::expressions::{CaseExpression, ExpressionPlace};
 pub use spec::formula::{Definitions, Expression, Formula, FormulaError, ParsedFormula};
 pub use spec::given_mesh::mesh_file::MeshFile;
 pub use spec::given_mesh::region_mesh::{RegionFault, unit_hint};

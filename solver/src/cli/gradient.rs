@@ -7,8 +7,9 @@ use super::complete;
 use super::exit::{Exit, Failure};
 use super::read::{Settings, read_case};
 use super::style::{Ink, on_stdout, say};
-use crate::case::{Case, printable};
+use crate::case::{Case, CaseFile, printable};
 use crate::gradient::{Derivatives, GradientError, GradientTask, gradients};
+use crate::runner::with_key;
 
 /// What `gradient` is asked for.
 #[derive(Debug, Args)]
@@ -61,7 +62,7 @@ pub fn gradient(options: &Options) -> Result<Exit, Failure> {
     };
     let Options { of, by, check, .. } = options;
     let task = GradientTask { read: &read, of, by, checks: *check };
-    let found = gradients(&task)?;
+    let found = gradients(&task).map_err(|error| failure(&file, error))?;
     let numbers: Vec<f64> = by.iter().map(|key| file.number(key).unwrap_or(1.0)).collect();
     let tables: Vec<Vec<Row<'_>>> =
         found.iter().map(|quantity| rows(quantity, by, &numbers)).collect();
@@ -116,12 +117,11 @@ fn to_json(of: &Derivatives, rows: &[Row<'_>]) -> Value {
     json!({ "quantity": of.of, "value": of.value, "by": by.collect::<Vec<_>>() })
 }
 
-impl From<GradientError> for Failure {
-    fn from(error: GradientError) -> Self {
-        match error {
-            GradientError::Case(error) => error.into(),
-            GradientError::Run(error) => error.into(),
-            GradientError::Adjoint(_) => Self::new(Exit::Diverged, error.to_string()),
-        }
+/// Why there is no gradient, with the place in the case that is to blame.
+pub fn failure(file: &CaseFile, error: GradientError) -> Failure {
+    match error {
+        GradientError::Case(error) => error.into(),
+        GradientError::Run(error) => with_key(file, error),
+        GradientError::Adjoint(_) => Failure::new(Exit::Diverged, error.to_string()),
     }
 }

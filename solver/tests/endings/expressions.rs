@@ -108,21 +108,33 @@ fn a_case_is_checked_for_expressions_at_the_start_and_in_the_first_step() {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("case.toml"), PLANE).unwrap();
     let late = "boundary.left.velocity.value=['sqrt(0.01 - t)', 0]";
-    for (settings, told_first) in [
-        (
-            ["fluid.force=['sqrt(x)', 0]", "time={ steady = {} }"],
-            "`fluid.force.0` = \"sqrt(x)\" is NaN",
-        ),
-        ([late, "mesh.size=1.0"], "`boundary.left.velocity.value.0` = \"sqrt(0.01 - t)\" is NaN"),
+    let coarse = "mesh.size=1.0";
+    let scalar = |rest: &str| format!("scalar=[{{ name = 'c', diffusivity = 0.1, {rest} }}]");
+    let [initial, source, steady] = [
+        "initial = 'log(x)'",
+        "initial = 1.0, source = 'sqrt(0.01 - t)'",
+        "boundary = { left = { value = 'sqrt(y)' } }",
+    ]
+    .map(scalar);
+    let read = ["check", "case.toml", "--threads", "1"];
+    let gradient = ["gradient", "case.toml", "--of=b.force.x", "--by=fluid.viscosity"];
+    let stokes = "time={ steady = {} }";
+    for (command, settings, told_first) in [
+        (read, ["fluid.force=['sqrt(x)', 0]", stokes], "`fluid.force.0` = \"sqrt(x)\" is NaN"),
+        (read, [late, coarse], "`boundary.left.velocity.value.0` = \"sqrt(0.01 - t)\" is NaN"),
+        (read, [&initial, coarse], "`scalar.0.initial` = \"log(x)\" is NaN"),
+        (read, [&source, coarse], "`scalar.0.source` = \"sqrt(0.01 - t)\" is NaN"),
+        (read, [&steady, stokes], "`scalar.0.boundary.left.value` = \"sqrt(y)\" is NaN"),
+        (gradient, ["fluid.force=['sqrt(x)', 0]", stokes], "`fluid.force.0` = \"sqrt(x)\" is NaN"),
     ] {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_alewife"))
-            .args(["check", "case.toml", "--threads", "1"])
+            .args(command)
             .args(settings.iter().flat_map(|setting| ["--set", setting]))
             .current_dir(directory.path())
             .output()
             .unwrap();
         let told = text(&output.stderr);
         assert_eq!(output.status.code(), Some(65), "{told}");
-        assert!(told.contains(told_first), "{told}");
+        assert!(told.contains(told_first) && told.contains("--set:1:"), "{told}");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::spec::formula::mistake_in_name;
-use crate::{BoundaryCondition, FlowModel, Formula, Initial, TimeSettings};
+use crate::{CaseExpression, FlowModel, Initial, TimeSettings};
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
@@ -15,23 +15,10 @@ pub fn check(findings: &mut Findings<'_>) {
             );
         }
     }
-    for (side, condition) in &case.boundary {
-        match condition {
-            BoundaryCondition::Velocity { value, .. } => {
-                check_all(findings, &format!("boundary.{side}.velocity.value"), value);
-            }
-            BoundaryCondition::Traction { value, .. } => {
-                check_all(findings, &format!("boundary.{side}.traction.value"), value);
-            }
-            BoundaryCondition::Pressure { value, .. } => {
-                check_one(findings, &format!("boundary.{side}.pressure.value"), value);
-            }
-            _ => {}
-        }
+    for one in case.flow_expressions() {
+        check_one(findings, &one);
     }
-    check_all(findings, "fluid.force", &case.fluid.force);
-    if let Some(initial) = &case.initial {
-        check_all(findings, "initial.velocity", &initial.velocity);
+    if case.initial.is_some() {
         if matches!(&case.time, TimeSettings::Unsteady(time) if time.initial == Initial::Stokes) {
             findings.error(
                 "initial",
@@ -50,15 +37,9 @@ pub fn check(findings: &mut Findings<'_>) {
     }
 }
 
-fn check_all(findings: &mut Findings<'_>, key: &str, formulas: &[Formula]) {
-    for (axis, formula) in formulas.iter().enumerate() {
-        check_one(findings, &format!("{key}.{axis}"), formula);
-    }
-}
-
 /// Whether an expression is understood, and is a number at the middle of the domain at time zero.
-pub(super) fn check_one(findings: &mut Findings<'_>, key: &str, formula: &Formula) {
-    let case = findings.case();
+pub(super) fn check_one(findings: &mut Findings<'_>, expression: &CaseExpression<'_>) {
+    let (case, CaseExpression { key, formula, .. }) = (findings.case(), expression);
     match formula.parsed(&case.define, case.geometry.dimensions()) {
         Err(error) => findings.error(
             key,

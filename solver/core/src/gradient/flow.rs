@@ -14,7 +14,8 @@ use crate::coupling::{
     load_derivatives,
 };
 use crate::run::{
-    BodiesInFlow, CaseMesh, Dimension, RunError, simulation_on, simulation_with, steady_value,
+    BodiesInFlow, CaseMesh, Dimension, RunError, by_key, simulation_on, simulation_with,
+    steady_value,
 };
 use crate::step::{
     SteadyFlow, SteadyTask, Workspace, solve_steady, steady_convection, steady_terms,
@@ -111,7 +112,8 @@ pub(super) fn steady_flow<const D: usize>(
         stop: None,
     };
     let flow = solve_steady(work, &point.problem, &task);
-    Ok(flow.map_err(|failure| RunError::from(*failure.error))?)
+    let by_key = |error| by_key(&point.model.case, &point.mesh, RunError::from(error));
+    Ok(flow.map_err(|failure| by_key(*failure.error))?)
 }
 
 /// The loads of a flow with the raw residual of its equations.

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use alewife_mesh::{Mesh, Point};
 
+use super::build::Scalars;
 use super::case_mesh::{CaseMesh, Dimension};
 use super::error::RunError;
 use super::prepare::simulation_on;
@@ -66,17 +67,22 @@ where
     check_memory(&mesh)?;
     let begun = Begun::now();
     let mut simulation = simulation_on(model, mesh)?;
+    simulation.scalars = Scalars::of(model, &simulation.problem, &simulation.state.mesh)?;
     let systems = match &model.case.time {
         TimeSettings::Steady(settings) => {
             let equations = simulation.steady_equations();
             let flow = simulation.solve_at_start(settings, &equations, false);
             let flow = flow.map_err(|error| simulation.by_key(&model.case, error))?;
             simulation.state.begin(InitialLevels::steady(flow.solution));
+            let scalars = simulation.solve_steady_scalars();
+            scalars.map_err(|error| simulation.by_key(&model.case, error))?;
             flow.iterations
         }
         TimeSettings::Unsteady(settings) => {
             let begun = simulation.begin(settings);
-            begun.map_err(|error| simulation.by_key(&model.case, error))?.iterations
+            let begun = begun.map_err(|error| simulation.by_key(&model.case, error))?;
+            simulation.begin_scalars();
+            begun.iterations
         }
     };
     let start = begun.effort(systems);
@@ -91,6 +97,11 @@ where
                 },
                 step => step,
             };
+            let (made, whole) = (simulation.state.time, settings.step.min(settings.end));
+            // Of a step that takes long only the half was made
+            if step.is_ok() && made < whole {
+                simulation.check_later(&model.case, [made, whole])?;
+            }
             let none = (&Series::default(), &Recording::default());
             (Some(step), Some(SavedState::of(&model.case, &simulation, none.0, none.1)?))
         }

@@ -7,6 +7,7 @@ use alewife_reduced::search::Ended;
 use alewife_reduced::tier::Which;
 
 use super::exit::{Exit, Failure};
+use super::gradient;
 use super::read::read_case;
 use super::soft::{self, SearchOptions, not_written, prepare, progress_line};
 use super::style::{complain, say};
@@ -23,7 +24,8 @@ pub fn optimise(options: &SearchOptions) -> Result<Exit, Failure> {
         return soft::seek(options, Which::Optimisation);
     }
     let file = read_case(&options.case, &options.settings.set)?;
-    let search = FlowSearch::new(&file)?;
+    let failure = |error| search_failure(&file, error);
+    let search = FlowSearch::new(&file).map_err(failure)?;
     let out = options.out.clone().unwrap_or_else(|| default_directory(&file));
     let _held = prepare(&out, [LAST, "journal"], options.overwrite)?;
     let mut told = |one: &RoundProgress| {
@@ -32,7 +34,7 @@ pub fn optimise(options: &SearchOptions) -> Result<Exit, Failure> {
             complain(&format!("round {} {line}", one.round));
         }
     };
-    let optimum = search.seek(&out, &mut told)?;
+    let optimum = search.seek(&out, &mut told).map_err(failure)?;
     say(optimum.text().trim_end());
     optimum.write(&out).map_err(|error| not_written(&out, &error))?;
     let compared = optimum.compared();
@@ -75,12 +77,11 @@ fn default_directory(file: &CaseFile) -> PathBuf {
     Path::new("runs").join(format!("{}-optimisation", file.directory_name()))
 }
 
-impl From<OptimiseError> for Failure {
-    fn from(error: OptimiseError) -> Self {
-        match error {
-            OptimiseError::Case(error) => error.into(),
-            OptimiseError::Gradient(error) => error.into(),
-            OptimiseError::Search(error) => soft::search_failure(&error),
-        }
+/// Why a search did not begin, with the place in the case that is to blame.
+pub fn search_failure(file: &CaseFile, error: OptimiseError) -> Failure {
+    match error {
+        OptimiseError::Case(error) => error.into(),
+        OptimiseError::Gradient(error) => gradient::failure(file, error),
+        OptimiseError::Search(error) => soft::search_failure(&error),
     }
 }

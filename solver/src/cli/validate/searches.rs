@@ -7,6 +7,7 @@ use alewife_reduced::tier::{
 };
 
 use super::super::exit::{Exit, Failure};
+use super::super::optimise::search_failure;
 use super::super::read::{CheckedCase, read_and_check};
 use super::super::style::complain;
 use super::members::members_of;
@@ -203,7 +204,8 @@ fn reduced(file: &CaseFile) -> Result<Vec<Comparison>, Failure> {
 /// The optimum of a steady flow.
 fn optimum_of(file: &CaseFile, place: &Place) -> Result<Vec<Comparison>, Failure> {
     let directory = place.of(&file.full_name(), "optimisation")?;
-    let optimum = FlowSearch::new(file)?.seek(&directory, &mut |_| {})?;
+    let optimum = FlowSearch::new(file).and_then(|search| search.seek(&directory, &mut |_| {}));
+    let optimum = optimum.map_err(|error| search_failure(file, error))?;
     let name = file.full_name();
     Ok(optimum.compared().iter().map(|one| of_optimum(&name, one)).collect())
 }

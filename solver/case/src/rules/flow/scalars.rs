@@ -24,7 +24,9 @@ pub fn check(findings: &mut Findings<'_>) {
         }
         check_diffusivity(findings, &key, scalar);
         check_places(findings, &key, scalar);
-        check_formulas(findings, &key, scalar);
+        for one in case.scalar_expressions(index) {
+            check_one(findings, &one);
+        }
         check_steady(findings, &key, scalar);
     }
 }
@@ -100,19 +102,6 @@ fn is_joined(findings: &Findings<'_>, side: &str) -> bool {
     );
     let is_joined = matches!(own, Some(BoundaryCondition::Periodic(_) | BoundaryCondition::Axis));
     is_joined || is_other_end || side == "axis"
-}
-
-fn check_formulas(findings: &mut Findings<'_>, key: &str, scalar: &ScalarSpec) {
-    check_one(findings, &format!("{key}.initial"), &scalar.initial);
-    if let Some(source) = &scalar.source {
-        check_one(findings, &format!("{key}.source"), source);
-    }
-    for (table, conditions) in [("boundary", &scalar.boundary), ("body", &scalar.body)] {
-        for (name, condition) in conditions {
-            let below = condition.key();
-            check_one(findings, &format!("{key}.{table}.{name}.{below}"), condition.formula());
-        }
-    }
 }
 
 /// A steady solution has a level, and bodies that stay in its mesh.

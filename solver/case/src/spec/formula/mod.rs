@@ -2,6 +2,7 @@
 
 mod dual;
 mod error;
+pub mod expressions;
 mod function;
 mod node;
 mod parse;

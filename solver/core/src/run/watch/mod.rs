@@ -17,6 +17,7 @@ mod soundness;
 pub use cell_bound::{Allowed, AllowedBy, CellBound};
 pub(super) use cell_bound::{AtHand, nearest_gap};
 pub(super) use force_agreement::ForceAgreement;
+pub use given_values::by_key;
 pub use not_finite::NotFinite;
 pub(super) use pace::Pace;
 pub(super) use sound_state::SoundState;
