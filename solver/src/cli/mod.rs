@@ -14,6 +14,7 @@ mod parent;
 mod plot;
 mod read;
 mod run;
+mod searched;
 mod soft;
 mod status;
 mod style;
@@ -122,11 +123,11 @@ enum Command {
     Loop(soft::LoopOptions),
     /// Draw quantities of a run over time, as text
     Plot(plot::Options),
-    /// Show how far a run is
+    /// Show how far a run, a sweep or a search is
     Status(status::Options),
     /// Report what a file of triangles encloses and whether it can be a body, and repair it
     Surface(surface::Options),
-    /// Check that what runs and sweeps have left is whole and agrees; nothing is run
+    /// Check that what runs, sweeps and searches have left is whole and agrees; nothing is run
     Verify(verify::Options),
     /// Run a case at many points: with several values of some of its keys
     Sweep(sweep::Options),

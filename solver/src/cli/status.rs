@@ -1,4 +1,4 @@
-//! `status`: how far a run is, from the files in its directory.
+//! `status`: how far runs, sweeps and searches are, from the files in their directories.
 
 use std::path::{Path, PathBuf};
 
@@ -6,14 +6,16 @@ use clap::{Args, ValueHint};
 use serde_json::json;
 
 use super::exit::{Exit, Failure};
+use super::searched::SearchDirectory;
 use super::style::say;
 use crate::case::significant;
-use crate::observer::{Leg, Provenance, RunLock, RunState, Status, checkpoints};
+use crate::observer::{Leg, Provenance, RunDirectory, RunLock, RunState, Status, checkpoints};
+use crate::sweep::{PLAN_FILE, PointState, SweepDirectory, stand};
 
 /// What `status` is asked for.
 #[derive(Debug, Args)]
 pub struct Options {
-    /// Directories of runs
+    /// Directories of runs, sweeps or searches
     #[arg(required = true, value_name = "DIR", value_hint = ValueHint::DirPath)]
     directories: Vec<PathBuf>,
     /// As JSON
@@ -36,10 +38,18 @@ struct Progress {
     legs: Vec<Leg>,
 }
 
-/// Reports how far runs are.
+/// Reports how far runs, sweeps and searches are.
 pub fn status(options: &Options) -> Result<Exit, Failure> {
     let mut all = Vec::new();
     for directory in &options.directories {
+        if let Some(Other { line, value }) = other(directory)? {
+            if options.json {
+                all.push(value);
+            } else {
+                say(&line);
+            }
+            continue;
+        }
         let progress = progress(directory)?;
         if options.json {
             all.push(progress.to_json(directory)?);
@@ -53,12 +63,79 @@ pub fn status(options: &Options) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
+/// How far something is that is no run.
+struct Other {
+    line: String,
+    value: serde_json::Value,
+}
+
+/// How far a sweep or a search is; none of a run.
+fn other(directory: &Path) -> Result<Option<Other>, Failure> {
+    if directory.join(PLAN_FILE).exists() {
+        return of_sweep(directory).map(Some);
+    }
+    if RunDirectory::is_one(directory) || directory.join("status.json").exists() {
+        return Ok(None);
+    }
+    // What cannot be read is told of as a run
+    let search = SearchDirectory::read(directory).ok().flatten();
+    Ok(search.map(|search| of_search(&search)))
+}
+
+fn of_sweep(directory: &Path) -> Result<Other, Failure> {
+    let sweep = SweepDirectory::open(directory)?;
+    let n = sweep.n_points();
+    let states: Vec<PointState> = (0..n).map(|index| stand(&sweep, index).state).collect();
+    let count = |state: &PointState| states.iter().filter(|own| *own == state).count();
+    let counts = PointState::ALL.iter().map(|state| (state.name(), count(state)));
+    let counts: Vec<(&str, usize)> = counts.filter(|(_, n)| *n > 0).collect();
+    let told: Vec<String> = counts.iter().map(|(state, n)| format!("{n} {state}")).collect();
+    let points: serde_json::Map<String, serde_json::Value> =
+        counts.iter().map(|(state, n)| ((*state).to_owned(), (*n).into())).collect();
+    Ok(Other {
+        line: format!(
+            "{}: sweep of {n} points: {}; `alewife sweep status` has each",
+            directory.display(),
+            told.join(", ")
+        ),
+        value: json!({ "directory": directory, "kind": "sweep", "points": points }),
+    })
+}
+
+fn of_search(search: &SearchDirectory) -> Other {
+    let (directory, kind, state) = (&search.path, search.kind.name(), search.state());
+    let (n, best) = (search.n_evaluations(), search.best());
+    let journals: Vec<&str> = search.journals.iter().map(|one| one.file.as_str()).collect();
+    let round = journals.last().filter(|file| file.starts_with("round-"));
+    let round = round.map(|file| format!(", the last in {}", file.trim_end_matches(".journal")));
+    let told = best.map_or_else(String::new, |best| format!(", the best there {best:.6e}"));
+    let more = if state == "stopped" { "\n  call it again to go on" } else { "" };
+    Other {
+        line: format!(
+            "{}: {state}, {kind}, {n} evaluations{}{told}{more}",
+            directory.display(),
+            round.unwrap_or_default()
+        ),
+        value: json!({
+            "directory": directory,
+            "kind": kind,
+            "state": state,
+            "evaluations": n,
+            "journals": journals,
+            "best": best.filter(|best| best.is_finite()),
+        }),
+    }
+}
+
 fn progress(directory: &Path) -> Result<Progress, Failure> {
     let path = directory.join("status.json");
     // Asked for first: a run that ends meanwhile says so in its status before it gives its lock free
     let is_held = RunLock::is_held(directory, &["status.json"]);
     let status = Status::read(directory).map_err(|error| {
-        let reason = format!("{}: {error}; give the directory of a run", path.display());
+        let reason = format!(
+            "{}: {error}; give the directory of a run, a sweep or a search",
+            path.display()
+        );
         Failure::new(Exit::NoInput, reason)
     })?;
     let part = status.end.filter(|end| *end > 0.0).map(|end| (status.time / end).clamp(0.0, 1.0));

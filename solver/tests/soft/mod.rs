@@ -117,13 +117,30 @@ fn an_optimum_is_found_and_runs_and_a_search_called_again_is_the_same() {
     let kept: Vec<&str> = journal.lines().take(3).collect();
     fs::create_dir(at.join("p")).unwrap();
     fs::write(at.join("p/search.journal"), kept.join("\n") + "\n1.0 2.").unwrap();
+    let told = done(at, &["status", "p"]);
+    assert!(told.contains("p: stopped, optimisation, 2 evaluations, the best there "), "{told}");
+    assert!(done(at, &["verify", "p"]).contains("p: sound; stopped; journals: 1, evaluations: 2"));
     done(at, &["optimise", "bar.toml", "--out", "p", "--quiet"]);
+    assert!(done(at, &["status", "p"]).contains("p: finished, optimisation, "));
+    assert!(done(at, &["verify", "p"]).contains("p: sound; finished"));
     assert_eq!(fs::read(at.join("p/report.json")).unwrap(), report);
     assert_eq!(fs::read_to_string(at.join("p/search.journal")).unwrap(), journal);
     let other = ["optimise", "bar.toml", "--set", "soft.frames=7", "--out", "q", "--quiet"];
     fs::create_dir(at.join("q")).unwrap();
     fs::write(at.join("q/search.journal"), &journal).unwrap();
     assert!(refused(at, &other, 2).contains("journal of another search"));
+    // A journal whose best evaluation went is not that of the report
+    let end = journal.lines().min_by(|a, b| objective(a).total_cmp(&objective(b))).unwrap();
+    fs::write(at.join("p/search.journal"), journal.replace(&format!("{end}\n"), "")).unwrap();
+    let output = alewife(at, &["verify", "p"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(65), "{said}");
+    assert!(said.contains("report.json: it has") && said.contains("`amplitude` is not"), "{said}");
+}
+
+/// The objective of a line of a journal; that of its first line is larger than all.
+fn objective(line: &str) -> f64 {
+    line.split(' ').next().and_then(|word| word.parse().ok()).unwrap_or(f64::INFINITY)
 }
 
 #[test]

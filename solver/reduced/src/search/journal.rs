@@ -45,20 +45,9 @@ impl Journal {
             .map_err(failed)?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed)?;
-        let text = String::from_utf8_lossy(&bytes);
-        let whole = text.rfind('\n').map_or(0, |end| end + 1);
-        let mut lines = text[..whole].lines();
-        let mut known = Vec::new();
-        let mut length = 0;
-        match lines.next() {
-            Some(first) if first == search => length += first.len() + 1,
-            Some(_) => return Err(SearchError::OtherSearch(name())),
-            None => {}
-        }
-        for line in lines {
-            let Some(found) = read(line) else { break };
-            known.push(found);
-            length += line.len() + 1;
+        let Journalled { search: of, known, length, .. } = Journalled::of(&bytes);
+        if length > 0 && of != search {
+            return Err(SearchError::OtherSearch(name()));
         }
         file.set_len(length as u64).map_err(failed)?;
         file.seek(SeekFrom::End(0)).map_err(failed)?;
@@ -87,6 +76,50 @@ impl Journal {
             file: self.path.display().to_string(),
             error: error.to_string(),
         })
+    }
+}
+
+/// What stands in a journal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Journalled {
+    /// Which search it is of.
+    pub search: String,
+    /// The evaluations, in order.
+    pub known: Vec<Evaluated>,
+    /// Bytes of the lines that were written whole.
+    length: usize,
+    /// Whether there is nothing but these.
+    pub is_whole: bool,
+}
+
+impl Journalled {
+    /// Reads a journal, which is left as it is.
+    ///
+    /// # Errors
+    /// What the file system reports.
+    pub fn read(path: &Path) -> std::io::Result<Self> {
+        Ok(Self::of(&std::fs::read(path)?))
+    }
+
+    fn of(bytes: &[u8]) -> Self {
+        let text = String::from_utf8_lossy(bytes);
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        let mut lines = text[..whole].lines();
+        let search = lines.next().unwrap_or_default().to_owned();
+        let mut length = if whole > 0 { search.len() + 1 } else { 0 };
+        let mut known = Vec::new();
+        for line in lines {
+            let Some(found) = read(line) else { break };
+            known.push(found);
+            length += line.len() + 1;
+        }
+        Self { search, known, length, is_whole: length == bytes.len() }
+    }
+
+    /// The best evaluation, the first of them.
+    #[must_use]
+    pub fn best(&self) -> Option<&Evaluated> {
+        self.known.iter().min_by(|a, b| a.objective.total_cmp(&b.objective))
     }
 }
 

@@ -17,7 +17,7 @@ pub use bounded::Bounded;
 pub use certainty::{Certainty, certainties};
 pub use error::SearchError;
 pub use external::External;
-pub use journal::{Journal, Opened};
+pub use journal::{Journal, Journalled, Opened};
 pub use methods::{Ask, Method, propose};
 pub use minimise::{Ended, Evaluated, Found, Search, minimise};
 pub use progress::{Progress, search};

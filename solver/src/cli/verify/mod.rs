@@ -1,4 +1,4 @@
-//! `verify`: whether what a run or a sweep has left is whole and agrees with itself; nothing is run.
+//! `verify`: whether what a run, a sweep or a search has left is whole and agrees with itself; nothing is run.
 
 mod fields;
 mod found;
@@ -7,6 +7,7 @@ mod motion;
 mod one;
 mod records;
 mod run;
+mod search;
 mod states;
 mod sweep;
 
@@ -15,6 +16,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 
 use super::exit::{Exit, Failure};
+use super::searched::SearchDirectory;
 use super::style::say;
 use crate::observer::RunDirectory;
 use crate::sweep::PLAN_FILE;
@@ -31,11 +33,12 @@ Of a run: its case, with the checksum in provenance.json; status.json and the le
 rise, and its rows are those of the states; that states can be read, and continue this case; that all fields
 of fields.pvd are there, whole and of this run; messages, comparison and log. Of a run of a soft case or a reduced
 model: the same of what it has, and that there is a row of each frame or step. Of a sweep: that each point is
-the one of its place, all of that for each point, and the table. Points that are missing are counted.
+the one of its place, all of that for each point, and the table. Points that are missing are counted. Of a
+search, of optimise, calibrate or loop: that its journals can be read, and the report or the table has what they have.
 
-Exit codes: 0 all is sound; 65 something is not; 66 there is no run or sweep.")]
+Exit codes: 0 all is sound; 65 something is not; 66 there is no run, sweep or search.")]
 pub struct Options {
-    /// Directories of runs or sweeps
+    /// Directories of runs, sweeps or searches
     #[arg(required = true, value_name = "DIR", value_hint = ValueHint::DirPath)]
     directories: Vec<PathBuf>,
     /// As JSON
@@ -43,7 +46,7 @@ pub struct Options {
     json: bool,
 }
 
-/// Reports what is wrong in directories of runs and sweeps.
+/// Reports what is wrong in directories of runs, sweeps and searches.
 pub fn verify(options: &Options) -> Result<Exit, Failure> {
     let mut all = Vec::new();
     let mut is_sound = true;
@@ -69,6 +72,9 @@ fn look_at(directory: &Path) -> Result<Found, Failure> {
     if RunDirectory::is_one(directory) {
         return Ok(one::verify(directory));
     }
-    let reason = format!("{} is the directory of no run and no sweep", directory.display());
+    if let Ok(Some(found)) = SearchDirectory::read(directory) {
+        return Ok(search::verify(&found));
+    }
+    let reason = format!("{} is the directory of no run, sweep or search", directory.display());
     Err(Failure::new(Exit::NoInput, reason))
 }
