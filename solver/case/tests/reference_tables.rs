@@ -137,6 +137,25 @@ fn a_table_has_uncertainties_as_numbers_and_in_per_cent() {
 }
 
 #[test]
+fn a_cause_has_one_name_wherever_it_is_told() {
+    let table = "quantity, value, relative, kind, source, outside, cause\n\
+                 disc.force.x, 4, 0.1, literature, by hand, wall, \n\
+                 disc.force.x, 4, 0.1, literature, by hand, , wall\n";
+    let text = format!("{CASE}[references]\nfile = \"references.csv\"\ncauses.wall = \"a wall\"\n");
+    let files = [("c.toml", text.as_str()), ("references.csv", table)];
+    let found = references(&Place::new(&files).read("c.toml", &[]).unwrap());
+    let told: Vec<[Option<&str>; 2]> = found
+        .iter()
+        .map(|one| [one.expected.outside.as_deref(), one.expected.cause.as_deref()])
+        .collect();
+    assert_eq!(told, [[Some("a wall"), None], [None, Some("a wall")]]);
+    let typo = table.replace(", wall, ", ", wal, ");
+    let files = [("c.toml", text.as_str()), ("references.csv", &typo)];
+    let said = Place::new(&files).read("c.toml", &[]).unwrap_err().to_string();
+    assert!(said.contains("[references.causes] has no `wal`"), "{said}");
+}
+
+#[test]
 fn single_references_come_before_those_of_the_table_and_can_be_set() {
     let single = SINGLE.split("[[variant]]").next().unwrap().replace("1.5", "7.0");
     let text = format!("{CASE}{single}{NAMED}{VARIANTS}");

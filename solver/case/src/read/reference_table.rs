@@ -31,7 +31,7 @@ pub struct ReferenceTable {
     /// Texts of sources by names without spaces, which may stand for them.
     #[serde(default)]
     pub sources: BTreeMap<String, String>,
-    /// Texts of causes of differences by names without spaces, which may stand for them.
+    /// Texts of `cause` and `outside` by names without spaces, which may stand for them.
     #[serde(default)]
     pub causes: BTreeMap<String, String>,
 }
@@ -63,7 +63,11 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), CaseError> {
         }
     }
     put_texts(root, &node, Names { key: "source", list: "sources", texts: &asked.sources })?;
-    put_texts(root, &node, Names { key: "cause", list: "causes", texts: &asked.causes })
+    // What makes a value differ may make it so large a difference that it is outside
+    for key in ["cause", "outside"] {
+        put_texts(root, &node, Names { key, list: "causes", texts: &asked.causes })?;
+    }
+    Ok(())
 }
 
 /// The text of a case with the table of its references in it instead of the name of a file.
@@ -178,7 +182,7 @@ fn put_texts(root: &mut TomlNode, node: &TomlNode, known: Names<'_>) -> Result<(
         let path = format!("{list}.{name}");
         return Err(refused(
             &node.get(&path).unwrap_or(node).key,
-            format!("`{name}` is no name of a {key}"),
+            format!("`{name}` is no name of a {}", list.trim_end_matches('s')),
             "write a name without spaces, such as stokes-1851".to_owned(),
         ));
     }
