@@ -69,12 +69,16 @@ impl Held {
     /// Whether it is where it should be, to its tolerance.
     #[must_use]
     pub fn is_met(&self) -> bool {
-        self.violation() <= self.tolerance
+        self.rest(0.0) <= self.tolerance
     }
 
-    /// How far it is off.
-    fn violation(&self) -> f64 {
-        if self.bound == Bound::Equals { self.off.abs() } else { self.off.max(0.0) }
+    /// How far the conditions of an optimum are from being met: what is off an equality, and of a limit the larger of what
+    /// is beyond it and what a multiplier, over the weight, still pushes it within (@nocedal2006, chapter 17.4).
+    fn rest(&self, pushed: f64) -> f64 {
+        match self.bound {
+            Bound::Equals => self.off.abs(),
+            Bound::AtMost | Bound::AtLeast => self.off.max(-pushed).abs(),
+        }
     }
 }
 
@@ -155,22 +159,17 @@ impl Multipliers {
 
     /// Whether all is where it should be, and nothing that is within its limit is still pushed.
     pub fn are_settled(&self, held: &[Held]) -> bool {
-        held.iter().zip(&self.values).all(|(own, value)| self.rest(own, *value) <= own.tolerance)
+        held.iter().zip(self.rests(held)).all(|(own, rest)| rest <= own.tolerance)
     }
 
-    /// How far the conditions of an optimum are from being met: what is off an equality, and of a limit the larger of what
-    /// is beyond it and what a multiplier still pushes it within (@nocedal2006, chapter 17.4).
-    fn rest(&self, own: &Held, multiplier: f64) -> f64 {
-        match own.bound {
-            Bound::Equals => own.off.abs(),
-            Bound::AtMost | Bound::AtLeast => own.off.max(-multiplier / self.weight).abs(),
-        }
+    /// How far each of what is held is from the conditions of an optimum.
+    fn rests(&self, held: &[Held]) -> impl Iterator<Item = f64> {
+        held.iter().zip(&self.values).map(|(own, multiplier)| own.rest(multiplier / self.weight))
     }
 
     /// Takes over what a round has come to.
     pub fn correct(&mut self, held: &[Held]) {
-        let rests = held.iter().zip(&self.values).map(|(own, value)| self.rest(own, *value));
-        let violation = rests.fold(0.0, f64::max);
+        let violation = self.rests(held).fold(0.0, f64::max);
         let forces = held.iter().zip(&self.values).map(|(own, value)| self.force(own, *value));
         self.values = forces.collect();
         if violation > LEFT * self.violation {
