@@ -1,5 +1,6 @@
 //! `run`: one case, its files, and how it compares with its references.
 
+use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
@@ -93,6 +94,9 @@ pub struct Options {
     /// Print more on the terminal; repeat for details
     #[arg(long, short, action = clap::ArgAction::Count)]
     verbose: u8,
+    /// The model, once it has been looked for.
+    #[arg(skip)]
+    found: OnceCell<Fidelity>,
 }
 
 impl Options {
@@ -103,7 +107,8 @@ impl Options {
 
     /// The model that is run.
     fn model(&self) -> Fidelity {
-        self.fidelity.unwrap_or_else(|| Fidelity::of(&self.case, &self.settings.set))
+        let of = || Fidelity::of(&self.case, &self.settings.set);
+        *self.found.get_or_init(|| self.fidelity.unwrap_or_else(of))
     }
 
     /// The run that is asked for.
