@@ -272,10 +272,7 @@ impl<'a> Builder<'a> {
         let place = law.place(&solid);
         let coefficients = self.spec.coefficients_of(&one.name);
         let own = self.spec.ellipsoid.iter().filter(|ellipsoid| ellipsoid.body == one.name);
-        let pieces = own.map(|ellipsoid| Piece {
-            law: law.of(ellipsoid.semi_axes),
-            place: in_space(&ellipsoid.position) - solid.center,
-        });
+        let pieces = own.map(|ellipsoid| Piece::new(ellipsoid, &law, &solid.center));
         let (number, inside, pieces) = (self.links.len(), *inside, pieces.collect());
         let part = Part { link: number, inside, mass, inertia, law, coefficients, place, pieces };
         link.loads.extend(part.loads(&part.coefficients));

@@ -1,9 +1,10 @@
 //! `Part`: where a body of a case is in its tree, and what the fluid does to it.
 
 use alewife_reduced::tree::{Number, PlacedLoad, Pose, real};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::law::Law;
+use crate::case::EllipsoidSpec;
 
 /// Where a body is in the tree, and what the fluid does to it.
 #[derive(Debug, Clone)]
@@ -28,22 +29,38 @@ pub(super) struct Part {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
     pub law: Law,
-    /// Its centre from the centre of mass, in the axes of the body.
-    pub place: Vector3<f64>,
+    /// Its centre and axes from the centre of mass, in the axes of the body.
+    pub place: Pose<f64>,
+}
+
+impl Piece {
+    /// An ellipsoid of a case on a body with the law of this one, and with a centre of mass in its frame (m).
+    pub fn new(spec: &EllipsoidSpec, law: &Law, center: &Vector3<f64>) -> Self {
+        let turn =
+            spec.orientation.as_ref().map_or_else(UnitQuaternion::identity, |own| own.rotation());
+        let position = Vector3::from(spec.position) - center;
+        let place = Pose { rotation: *turn.to_rotation_matrix().matrix(), position };
+        Self { law: law.of(spec.semi_axes), place }
+    }
 }
 
 impl Part {
+    /// What has the loads on the body: its shape, or ellipsoids.
+    pub fn laws(&self) -> Vec<Piece> {
+        if self.pieces.is_empty() {
+            return vec![Piece { law: self.law, place: Pose::at(self.place) }];
+        }
+        self.pieces.clone()
+    }
+
     /// All loads on the body by coefficients, in the frame of its link.
     pub fn loads<T: Number>(&self, coefficients: &[T]) -> Vec<PlacedLoad<T>> {
-        let placed = |law: &Law, place: Vector3<f64>| {
-            let load = law.load(coefficients)?;
-            let met = pose(&self.inside.then(&Pose::at(place)));
+        let placed = |piece: Piece| {
+            let load = piece.law.load(coefficients)?;
+            let met = pose(&self.inside.then(&piece.place));
             Some(PlacedLoad { pose: Some(met), load })
         };
-        if self.pieces.is_empty() {
-            return placed(&self.law, self.place).into_iter().collect();
-        }
-        self.pieces.iter().filter_map(|piece| placed(&piece.law, piece.place)).collect()
+        self.laws().into_iter().filter_map(placed).collect()
     }
 }
 

@@ -117,7 +117,11 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
 }
 
 /// An orientation, of this key, by a quaternion of unit length.
-pub(super) fn check_orientation(findings: &mut Findings<'_>, key: &str, orientation: &Orientation) {
+pub(in crate::rules) fn check_orientation(
+    findings: &mut Findings<'_>,
+    key: &str,
+    orientation: &Orientation,
+) {
     if let Orientation::Quaternion(parts) = orientation
         && (norm(parts) - 1.0).abs() > ROUNDING
     {

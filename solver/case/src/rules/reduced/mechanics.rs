@@ -3,6 +3,7 @@
 use super::is_a_body;
 use super::parts::vector;
 use crate::rules::Findings;
+use crate::rules::space::check_orientation;
 use crate::{FlowModel, Geometry, JointKind, LoadLaw, Motion, ReducedSpec, ServoSpec, TendonSpec};
 
 pub fn check(findings: &mut Findings<'_>, spec: &ReducedSpec) {
@@ -138,6 +139,9 @@ fn ellipsoids(findings: &mut Findings<'_>, spec: &ReducedSpec) {
         vector(findings, &format!("{key}.position"), &ellipsoid.position);
         for value in ellipsoid.semi_axes {
             amount(findings, &format!("{key}.semi_axes"), value, false);
+        }
+        if let Some(orientation) = &ellipsoid.orientation {
+            check_orientation(findings, &format!("{key}.orientation"), orientation);
         }
     }
     if !spec.ellipsoid.is_empty() && spec.loads != LoadLaw::Ellipsoid {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::spec::body::orientation::Orientation;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, Positive};
 
@@ -95,7 +96,10 @@ pub struct EllipsoidSpec {
     pub body: String,
     /// Its centre in the frame of the body (m).
     pub position: [f64; 3],
-    /// Half lengths along the axes of the body (m).
+    /// Half lengths along its axes (m), which are those of the body unless it is turned.
     #[cfg_attr(test, schemars(with = "[Positive; 3]"))]
     pub semi_axes: [f64; 3],
+    /// How its axes are turned from those of the body; not at all if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
 }
