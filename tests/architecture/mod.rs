@@ -106,7 +106,7 @@ const ROOMS: [(&str, &[&str]); 38] = [
 ];
 
 /// Foreign crates that may be named in some rooms or files only.
-const FOREIGN: [(&str, &[&str]); 9] = [
+const FOREIGN: [(&str, &[&str]); 10] = [
     (
         "num_dual",
         &[
@@ -133,6 +133,7 @@ const FOREIGN: [(&str, &[&str]); 9] = [
     ("mcap", &["solver/src/observer/"]),
     ("clap", &["solver/src/cli/"]),
     ("indicatif", &["solver/src/observer/"]),
+    ("roxmltree", &["solver/src/reduced/exchange/read/"]),
 ];
 
 /// The room of a file of the solver: the crate of case files is one, all others are folders of their

@@ -2,6 +2,7 @@
 
 mod check;
 mod complete;
+mod exchange;
 mod exit;
 mod facts;
 mod gradient;
@@ -121,6 +122,10 @@ enum Command {
     Optimise(soft::SearchOptions),
     /// Optimise, have a robot move so, and calibrate by what is seen, in turns
     Loop(soft::LoopOptions),
+    /// Write the reduced model of a case for other programs, as MJCF of MuJoCo or as URDF
+    Export(exchange::ExportOptions),
+    /// Write a case of a model of MuJoCo (MJCF) or of ROS (URDF)
+    Import(exchange::ImportOptions),
     /// Draw quantities of a run over time, as text
     Plot(plot::Options),
     /// Show how far a run, a sweep or a search is
@@ -229,6 +234,8 @@ fn perform(command: Command) -> Result<Exit, Failure> {
         Command::Calibrate(options) => soft::calibrate(&options),
         Command::Optimise(options) => optimise::optimise(&options),
         Command::Loop(options) => soft::rounds(&options),
+        Command::Export(options) => exchange::export(&options),
+        Command::Import(options) => exchange::import(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),
         Command::Surface(options) => surface::surface(&options),

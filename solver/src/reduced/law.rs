@@ -62,6 +62,11 @@ impl Law {
         if self.loads == LoadLaw::Fossen { -solid.center } else { solid.middle }
     }
 
+    /// Half lengths of what it is the law of, along its axes (m).
+    pub fn semi_axes(&self) -> Vector3<f64> {
+        self.semi_axes
+    }
+
     /// How far the body reaches from its middle (m).
     pub fn reach(&self) -> f64 {
         self.semi_axes.max()

@@ -4,6 +4,7 @@ mod acting;
 mod build;
 mod calibrate;
 mod error;
+mod exchange;
 mod guide;
 mod hung;
 mod inertia;
@@ -22,5 +23,6 @@ pub use calibrate::{
     check_records,
 };
 pub use error::ReducedError;
+pub use exchange::{ExchangeError, Exported, Imported, Remark, RobotFormat, export, import};
 pub use play::{Player, Playing, Scratch};
 pub use simulate::simulate;

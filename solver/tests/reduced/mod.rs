@@ -3,6 +3,7 @@
 
 mod calibration;
 mod elongated;
+mod exchange;
 mod fish;
 mod guided;
 mod mutations;
