@@ -34,7 +34,8 @@ pub use imported::Imported;
 pub use placement::{check_placement, cutting_planes};
 pub use region::Region;
 pub use sections::{
-    RulePoint, Section, SectionHeight, SectionMoments, SectionPoint, Sections, Summand,
+    RulePoint, Section, SectionHeight, SectionMoments, SectionPoint, Sections, SolidMoments,
+    Summand, along_section, in_plane, on_section, parts_of,
 };
 pub use shape::{Body, Part, Shape};
 pub use size_field::SizeField;

@@ -1,17 +1,19 @@
-//! `Sections`: the elliptic cross-sections of a body about a midline in a plane, and what they enclose.
+//! `Sections`: the elliptic cross-sections of a body about a midline, and what they enclose.
 //!
-//! A point of the body is C(p) + u W(p) + v H(p) e_z with u² + v² <= 1: the midline C and the half width W
-//! are in the plane z = 0, the half height H is across it. The parameter p runs from the nose to the
-//! end of the tail, where W and H vanish and are odd in p, so that both ends are smooth.
+//! A point of the body is C(p) + u W(p) + v H(p) with u² + v² <= 1, about the midline C with the half width W and the
+//! half height H across. The parameter p runs from the nose to the end of the tail, where W and H vanish and are
+//! odd in p, so that both ends are smooth. Where the midline is in the plane z = 0, so is W, and H is across it.
 
+mod moments;
 mod profile;
+mod section;
 
+pub use moments::{SectionMoments, SolidMoments, Summand};
 pub use profile::SectionHeight;
+use section::section;
+pub use section::{Section, along_section, in_plane, on_section, parts_of};
 
 use std::f64::consts::PI;
-use std::ops::{Add, Mul, Sub};
-
-use nalgebra::SVector;
 
 use crate::{GaussRule, Point, Spline};
 
@@ -20,9 +22,6 @@ const RULE_POINTS: usize = 8;
 
 /// Angles at which elements of area are taken.
 const AREA_ANGLES: usize = 16;
-
-/// Midline (x, y), half width (x, y) and half height of a section (m).
-pub type Section = SVector<f64, 5>;
 
 /// A point of a surface of sections, and of the material that it carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,38 +51,6 @@ pub struct RulePoint {
     pub weight: f64,
 }
 
-/// A number that integrals are made of: a real one, or one with its derivative.
-pub trait Summand:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Mul<f64, Output = Self>
-    + From<f64>
-{
-}
-
-impl<T> Summand for T where
-    T: Copy
-        + Add<Output = T>
-        + Sub<Output = T>
-        + Mul<Output = T>
-        + Mul<f64, Output = T>
-        + From<f64>
-{
-}
-
-/// Integrals over what sections enclose.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SectionMoments<T> {
-    /// Volume (m³).
-    pub volume: T,
-    /// Integrals of x and y (m⁴).
-    pub first: [T; 2],
-    /// Integrals of xx, xy, yy and zz (m⁵).
-    pub second: [T; 4],
-}
-
 impl Sections {
     /// The sections whose outline in the plane z = 0 is a spline through points of the nose, of
     /// one side, of the tail and back along the other side, at parameters that are the same from the nose on both;
@@ -98,21 +65,51 @@ impl Sections {
         let there = half_heights.iter().map(|height| [*height, 0.0]);
         let back = half_heights[1..n].iter().rev().map(|height| [-*height, 0.0]);
         let heights = Spline::with_knots(&there.chain(back).collect::<Vec<_>>(), all)?;
-        // Value and derivative at a knot
         let at_knot = |i: usize| -> [Section; 2] {
-            let upper = outline.evaluate_on(i, 0.0);
-            let lower = if i == 0 { upper } else { outline.evaluate_on(2 * n - i, 0.0) };
             let height = heights.evaluate_on(i, 0.0);
+            let sides = halves(outline, i);
             [0, 1].map(|order| {
-                // The other side is followed from tail to nose
-                let sign = if order == 0 { 1.0 } else { -1.0 };
-                let [up, down] = [upper[order], lower[order] * sign];
-                let (middle, half) = ((up + down) * 0.5, (up - down) * 0.5);
-                Section::new(middle.x, middle.y, half.x, half.y, height[order].x)
+                let Halves { middle, half } = sides[order];
+                section(middle.push(0.0), half.push(0.0), Point::<3>::z() * height[order].x)
             })
         };
-        let at: Vec<[Section; 2]> = (0..=n).map(at_knot).collect();
-        let knots = all[..=n].to_vec();
+        Some(Self::through(&all[..=n], at_knot))
+    }
+
+    /// The sections whose outlines along their widths and along their heights are splines through points (m) of the nose, of
+    /// one side, of the tail and back along the other side, at parameters that are the same from the nose on both sides.
+    /// `None` where they do not fit.
+    #[must_use]
+    pub fn around(outlines: [&[Point<3>]; 2], knots: &[f64]) -> Option<Self> {
+        let n = knots.len() / 2;
+        if n == 0 || knots.len() != 2 * n + 1 {
+            return None;
+        }
+        let spline = |points: &[Point<3>], part: fn(&Point<3>) -> [f64; 2]| {
+            Spline::with_knots(&points.iter().map(part).collect::<Vec<_>>(), knots)
+        };
+        let mut splines = Vec::new();
+        for points in outlines {
+            let flat = spline(points, |at| [at.x, at.y])?;
+            splines.push([flat, spline(points, |at| [at.z, 0.0])?]);
+        }
+        let at_knot = |i: usize| -> [Section; 2] {
+            let sides: Vec<[[Halves; 2]; 2]> =
+                splines.iter().map(|parts| [halves(&parts[0], i), halves(&parts[1], i)]).collect();
+            [0, 1].map(|order| {
+                let [width, height] = [0, 1].map(|outline| {
+                    let [flat, off]: [Halves; 2] = sides[outline].map(|parts| parts[order]);
+                    [flat.middle.push(off.middle.x), flat.half.push(off.half.x)]
+                });
+                section(width[0], width[1], height[1])
+            })
+        };
+        Some(Self::through(&knots[..=n], at_knot))
+    }
+
+    /// Cubic pieces with the values and derivatives at knots.
+    fn through(knots: &[f64], at_knot: impl Fn(usize) -> [Section; 2]) -> Self {
+        let at: Vec<[Section; 2]> = (0..knots.len()).map(at_knot).collect();
         let piece = |i: usize| {
             let span = knots[i + 1] - knots[i];
             let ([from, start], [to, end]) = (at[i], at[i + 1]);
@@ -121,8 +118,8 @@ impl Sections {
                 hermite(to, -end * span, from, -start * span),
             ]
         };
-        let pieces = (0..n).map(piece).collect();
-        Some(Self { knots, pieces })
+        let pieces = (0..knots.len() - 1).map(piece).collect();
+        Self { knots: knots.to_vec(), pieces }
     }
 
     /// Parameters of the sections that were given, from 0 to the end of the tail.
@@ -183,13 +180,23 @@ impl Sections {
         places
     }
 
-    /// Volume and moments about the origin.
+    /// Volume and moments about the origin, with the midline in the plane z = 0.
     #[must_use]
     pub fn moments(&self) -> SectionMoments<f64> {
         let zero = SectionMoments::default();
         self.rule().iter().fold(zero, |mut sum: SectionMoments<f64>, place| {
+            let [value, rate] = self.on(place).map(|section| in_plane(&section));
+            sum.add(place.weight, &value, &rate);
+            sum
+        })
+    }
+
+    /// Volume and moments about the origin, whatever way the midline bends.
+    #[must_use]
+    pub fn solid_moments(&self) -> SolidMoments {
+        self.rule().iter().fold(SolidMoments::default(), |mut sum, place| {
             let [value, rate] = self.on(place);
-            sum.add(place.weight, &value.into(), &rate.into());
+            sum.add(place.weight, &value, &rate);
             sum
         })
     }
@@ -202,9 +209,8 @@ impl Sections {
         let on_piece = |pair: &[f64]| -> f64 {
             let [value, rate, _] = self.at(0.5 * (pair[0] + pair[1]));
             let element = |i: usize| {
-                let (sin, cos) = (turn * i as f64).sin_cos();
-                let around = Point::<3>::new(-value[2] * sin, -value[3] * sin, value[4] * cos);
-                on_section(&rate, turn * i as f64).cross(&around).norm()
+                let angle = turn * i as f64;
+                on_section(&rate, angle).cross(&along_section(&value, angle)).norm()
             };
             (0..AREA_ANGLES).map(element).sum::<f64>() * turn * (pair[1] - pair[0])
         };
@@ -215,7 +221,8 @@ impl Sections {
     #[must_use]
     pub fn centered(mut self) -> Self {
         let SectionMoments { volume, first, .. } = self.moments();
-        let center = Section::new(first[0] / volume, first[1] / volume, 0.0, 0.0, 0.0);
+        let center = Point::<3>::new(first[0] / volume, first[1] / volume, 0.0);
+        let center = section(center, Point::<3>::zeros(), Point::<3>::zeros());
         for piece in self.pieces.iter_mut().flatten() {
             piece[0] -= center;
         }
@@ -230,10 +237,24 @@ impl Sections {
     }
 }
 
-/// The point of a section at an angle (rad).
-pub(super) fn on_section(section: &Section, around: f64) -> Point<3> {
-    let (sin, cos) = around.sin_cos();
-    Point::<3>::new(section[0] + section[2] * cos, section[1] + section[3] * cos, section[4] * sin)
+/// The middle of both sides of an outline, and half of the way from one to the other.
+#[derive(Clone, Copy)]
+struct Halves {
+    middle: Point<2>,
+    half: Point<2>,
+}
+
+/// Those of a closed outline at a knot, and their derivatives by the parameter from the nose.
+fn halves(outline: &Spline, knot: usize) -> [Halves; 2] {
+    let last = outline.knots().len() - 1;
+    let upper = outline.evaluate_on(knot, 0.0);
+    let lower = if knot == 0 { upper } else { outline.evaluate_on(last - knot, 0.0) };
+    [0, 1].map(|order| {
+        // The other side is followed from tail to nose
+        let sign = if order == 0 { 1.0 } else { -1.0 };
+        let [up, down] = [upper[order], lower[order] * sign];
+        Halves { middle: (up + down) * 0.5, half: (up - down) * 0.5 }
+    })
 }
 
 /// The cubic with these values and slopes at 0 and 1.
@@ -249,34 +270,6 @@ fn evaluate([a, b, c, d]: &[Section; 4], part: f64, span: f64) -> [Section; 3] {
         (b + (c * 2.0 + d * (3.0 * part)) * part) / span,
         (c * 2.0 + d * (6.0 * part)) / (span * span),
     ]
-}
-
-impl<T: Summand> Default for SectionMoments<T> {
-    fn default() -> Self {
-        let zero = T::from(0.0);
-        Self { volume: zero, first: [zero; 2], second: [zero; 4] }
-    }
-}
-
-impl<T: Summand> SectionMoments<T> {
-    /// Adds a section with its derivative by the parameter, weighted.
-    ///
-    /// The volume between sections is H (W x C' + u W x W') du dv dp, integrated over the unit disc.
-    pub fn add(&mut self, weight: f64, section: &[T; 5], rate: &[T; 5]) {
-        let [cx, cy, wx, wy, h] = *section;
-        let ahead = (wx * rate[1] - wy * rate[0]) * h * (PI * weight);
-        let turn = (wx * rate[3] - wy * rate[2]) * h * (0.25 * PI * weight);
-        let (c, w) = ([cx, cy], [wx, wy]);
-        self.volume = self.volume + ahead;
-        for axis in 0..2 {
-            self.first[axis] = self.first[axis] + c[axis] * ahead + w[axis] * turn;
-        }
-        for (sum, [i, j]) in self.second.iter_mut().zip([[0, 0], [0, 1], [1, 1]]) {
-            let mixed = c[i] * w[j] + c[j] * w[i];
-            *sum = *sum + (c[i] * c[j] + w[i] * w[j] * 0.25) * ahead + mixed * turn;
-        }
-        self.second[3] = self.second[3] + h * h * ahead * 0.25;
-    }
 }
 
 #[cfg(test)]
@@ -364,10 +357,9 @@ mod tests {
             let [value, rate, _] = body.at(step * (i as f64 + 0.5));
             for k in 0..n_around {
                 let angle = turn * k as f64;
-                let (sin, cos) = angle.sin_cos();
-                let around = Point::<3>::new(-value[2] * sin, -value[3] * sin, value[4] * cos);
                 let at = on_section(&value, angle);
-                let flux = at.dot(&on_section(&rate, angle).cross(&around)) * step * turn;
+                let normal = on_section(&rate, angle).cross(&along_section(&value, angle));
+                let flux = at.dot(&normal) * step * turn;
                 volume += flux / 3.0;
                 x += at.x * flux / 4.0;
                 xy += at.x * at.y * flux / 5.0;

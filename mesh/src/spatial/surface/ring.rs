@@ -1,7 +1,7 @@
 //! `Ring`: one section of a slender body as an ellipse in space, and its point nearest to another one.
 
 use crate::Point;
-use crate::spatial::sections::{Section, Sections, on_section};
+use crate::spatial::sections::{Section, Sections, on_section, parts_of};
 
 /// Angles at which a ring is looked at for the box around it, and for places on the surface.
 const ANGLES: usize = 8;
@@ -23,8 +23,10 @@ pub(super) struct Ring {
     pub center: Point<3>,
     /// Radius of a ball about the centre that holds it (m).
     pub reach: f64,
-    /// Unit vector along its width.
+    /// Unit vectors along its width and its height, and across both.
     side: Point<3>,
+    up: Point<3>,
+    ahead: Point<3>,
     /// Half width and half height (m).
     width: f64,
     height: f64,
@@ -34,10 +36,11 @@ impl Ring {
     /// The section at a parameter.
     pub fn new(sections: &Sections, along: f64) -> Self {
         let [section, ..] = sections.at(along);
-        let center = Point::<3>::new(section[0], section[1], 0.0);
-        let (width, height) = (section[2].hypot(section[3]), section[4].abs());
-        let side = Point::<3>::new(section[2] / width, section[3] / width, 0.0);
-        Self { along, section, center, reach: width.max(height), side, width, height }
+        let [center, across, upward] = parts_of(&section);
+        let (width, height) = (across.norm(), upward.norm());
+        let (side, up) = (across / width, upward / height);
+        let reach = width.max(height);
+        Self { along, section, center, reach, side, up, ahead: up.cross(&side), width, height }
     }
 
     /// Cosine and sine of the angle of its point nearest to a place in its plane, along and across the width,
@@ -71,8 +74,8 @@ impl Ring {
     /// Square of the distance of a point (m2).
     pub fn squared_distance(&self, of: &Point<3>) -> f64 {
         let off = of - self.center;
-        let (x, z) = (off.dot(&self.side).abs(), off.z.abs());
-        let ahead = off.y * self.side.x - off.x * self.side.y;
+        let (x, z) = (off.dot(&self.side).abs(), off.dot(&self.up).abs());
+        let ahead = off.dot(&self.ahead);
         let [cos, sin] = self.nearest(x, z);
         let [u, v] = [x - self.width * cos, z - self.height * sin];
         u * u + v * v + ahead * ahead
@@ -81,9 +84,9 @@ impl Ring {
     /// The angle at which it is nearest to a point (m).
     pub fn angle_of(&self, of: &Point<3>) -> f64 {
         let off = of - self.center;
-        let side = off.dot(&self.side);
-        let [cos, sin] = self.nearest(side.abs(), off.z.abs());
-        (sin * off.z.signum()).atan2(cos * side.signum())
+        let (side, up) = (off.dot(&self.side), off.dot(&self.up));
+        let [cos, sin] = self.nearest(side.abs(), up.abs());
+        (sin * up.signum()).atan2(cos * side.signum())
     }
 }
 

@@ -6,7 +6,9 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::ring::{Ring, ring_corners};
 use super::{Foot, SizedGap};
-use crate::spatial::sections::{Section, SectionPoint, Sections, on_section};
+use crate::spatial::sections::{
+    Section, SectionPoint, Sections, along_section, on_section, parts_of,
+};
 use crate::{Bounds, BoxTree, Point};
 
 /// Part of a box by which it is enlarged, as its surface bends out between the places that are looked at.
@@ -103,7 +105,7 @@ impl Slender {
         let corners = boxes.iter().map(|one| one.min.abs().sup(&one.max.abs()).norm());
         let reach = corners.fold(0.0, f64::max);
         let end = sections.end();
-        let slope = |along: f64| sections.at(along)[1].fixed_rows::<2>(2).norm();
+        let slope = |along: f64| parts_of(&sections.at(along)[1])[1].norm();
         let cap = |from: f64, inner: &dyn Fn(usize) -> f64| {
             let whole = slope(from);
             let off = (1..=knots.len() / 2).map(|i| (inner(i) - from).abs());
@@ -113,8 +115,9 @@ impl Slender {
         let caps = [cap(0.0, &|i| knots[i]), cap(end, &|i| knots[knots.len() - 1 - i])];
         let inner_radius = [0.0, end].map(|along| {
             let [_, rate, second] = sections.at(along);
-            let bend = second.fixed_rows::<2>(0).norm();
-            rate.fixed_rows::<2>(2).norm().min(rate[4].abs()).powi(2) / bend
+            let [bend, ..] = parts_of(&second).map(|part| part.norm());
+            let [_, width, height] = parts_of(&rate).map(|part| part.norm());
+            width.min(height).powi(2) / bend
         });
         let inner_radius = inner_radius[0].min(inner_radius[1]);
         let boxes = BoxTree::new(&boxes);
@@ -288,16 +291,12 @@ impl Slender {
         let end = self.sections.end();
         let along = at.along.clamp(OFF_ENDS * end, (1.0 - OFF_ENDS) * end);
         let [value, rate, second] = self.sections.at(along);
-        let (sin, cos) = at.around.sin_cos();
-        let turned =
-            |part: &Section| Point::<3>::new(-part[2] * sin, -part[3] * sin, part[4] * cos);
-        let back = Point::<3>::new(-value[2] * cos, -value[3] * cos, -value[4] * sin);
-        Local {
-            point: on_section(&value, at.around),
-            along: on_section(&rate, at.around),
-            around: turned(&value),
-            second: [on_section(&second, at.around), turned(&rate), back],
-        }
+        let on = |part: &Section| on_section(part, at.around);
+        let turned = |part: &Section| along_section(part, at.around);
+        let [middle, ..] = parts_of(&value);
+        let point = on(&value);
+        let second = [on(&second), turned(&rate), middle - point];
+        Local { point, along: on(&rate), around: turned(&value), second }
     }
 
     /// Smallest radius of curvature (m) at one of its points.
@@ -344,12 +343,15 @@ impl Slender {
         let normal = local.normal();
         let [section, ..] = self.sections.at(at.along);
         let (sin, cos) = at.around.sin_cos();
-        let width = section[2].hypot(section[3]);
-        let side = (normal.x * section[2] + normal.y * section[3]) / width;
+        let [_, width, height] = parts_of(&section);
         let way = |offset: f64, part: f64| {
             if part > 0.0 && offset > 0.0 { offset / part } else { f64::INFINITY }
         };
-        way(width * cos.abs(), side.abs()).min(way(section[4].abs() * sin.abs(), normal.z.abs()))
+        let along = |axis: Point<3>, part: f64| {
+            let half = axis.norm();
+            way(half * part.abs(), (normal.dot(&axis) / half).abs())
+        };
+        along(width, cos).min(along(height, sin))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Solids of a scene as viewers draw them: ellipsoids, and cylinders for tubes and profiles.
 
-use alewife_mesh::spatial::{Centreline, Part, Shape, SurfaceMoments};
+use alewife_mesh::spatial::{Centreline, Part, Shape, SurfaceMoments, parts_of};
 use nalgebra::{
     Isometry3, Matrix3, Rotation3, SymmetricEigen, Translation3, UnitQuaternion, Vector3,
 };
@@ -56,9 +56,9 @@ impl Solids {
                     let sections = slender.sections();
                     let knots = sections.knots().windows(2);
                     for pair in knots.map(|pair| [pair[0], pair[1]]) {
-                        let ends = pair.map(|along| sections.at(along)[0]);
-                        let at = ends.map(|end| Vector3::new(end[0], end[1], 0.0));
-                        self.cone(&pose, at, ends.map(|end| end[2].hypot(end[3])));
+                        let ends = pair.map(|along| parts_of(&sections.at(along)[0]));
+                        let radii = ends.map(|[_, width, _]| width.norm());
+                        self.cone(&pose, ends.map(|[middle, ..]| middle), radii);
                     }
                 }
                 Shape::Triangulated(triangles) => {

@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use alewife_mesh::Spline;
-use alewife_mesh::spatial::{Section, SectionMoments, SectionPoint, Sections};
+use alewife_mesh::spatial::{
+    Section, SectionMoments, SectionPoint, Sections, along_section, in_plane, on_section,
+};
 use num_dual::Dual64;
 
 /// Angles of a section at which its velocity is looked at.
@@ -46,6 +48,7 @@ impl ClosedSurface {
             let [value, along] = self.places.on(&place);
             let [rate, along_rate] = self.rates.on(&place);
             let dual = |value: &Section, rate: &Section| -> [Dual64; 5] {
+                let (value, rate) = (in_plane(value), in_plane(rate));
                 std::array::from_fn(|i| Dual64::new(value[i], rate[i]))
             };
             sums.add(place.weight, &dual(&value, &rate), &dual(&along, &along_rate));
@@ -66,15 +69,10 @@ impl ClosedSurface {
             let [section, ahead, _] = self.places.at(along);
             let [rate, ..] = self.rates.at(along);
             for i in 0..ANGLES {
-                let (sin, cos) = (TAU * i as f64 / ANGLES as f64).sin_cos();
-                let on = |part: &Section| {
-                    let [x, y] = [0, 1].map(|axis| part[axis] + part[axis + 2] * cos);
-                    nalgebra::Vector3::new(x, y, part[4] * sin)
-                };
-                let around =
-                    nalgebra::Vector3::new(-section[2] * sin, -section[3] * sin, section[4] * cos);
-                let normal = on(&ahead).cross(&around) * step;
-                sum += on(&rate).dot(&normal).abs();
+                let angle = TAU * i as f64 / ANGLES as f64;
+                let around = along_section(&section, angle);
+                let normal = on_section(&ahead, angle).cross(&around) * step;
+                sum += on_section(&rate, angle).dot(&normal).abs();
                 area += normal.norm();
             }
         }
