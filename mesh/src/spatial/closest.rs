@@ -166,7 +166,8 @@ fn starts(one: &SmoothSurface, two: &SmoothSurface) -> Vec<Point<3>> {
     if one.is_convex() && two.is_convex() {
         return vec![between(one.foot(two.foot(one.origin()).point).point)];
     }
-    one.places(STARTS).into_iter().map(between).collect()
+    let places = one.nearest_to_plane(two).unwrap_or_else(|| one.places(STARTS));
+    places.into_iter().map(between).collect()
 }
 
 /// Places between a surface and a side of a given mesh, which may face it in many places: the nearest, and

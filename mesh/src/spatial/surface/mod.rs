@@ -345,6 +345,14 @@ impl SmoothSurface {
         self.places(SAMPLES).iter().any(|point| plane.gap(*point) <= 0.0)
     }
 
+    /// Places on a slender body about which it is nearest to a plane; `None` of other surfaces.
+    #[must_use]
+    pub fn nearest_to_plane(&self, plane: &Self) -> Option<Vec<Point<3>>> {
+        let (Form::Slender(slender), Form::Plane) = (&self.form, &plane.form) else { return None };
+        let own = slender.farthest_against(self.rotation.tr_mul(&plane.axis()));
+        Some(own.into_iter().map(|place| self.origin + self.rotation * place).collect())
+    }
+
     /// About so many places on it, as seen from far away; of a slender body and of triangles all over it.
     #[must_use]
     pub fn places(&self, n: usize) -> Vec<Point<3>> {

@@ -32,6 +32,13 @@ pub(super) struct Ring {
     height: f64,
 }
 
+/// A place, and how far it is along a direction (m).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lowest {
+    pub place: Point<3>,
+    pub value: f64,
+}
+
 impl Ring {
     /// The section at a parameter.
     pub fn new(sections: &Sections, along: f64) -> Self {
@@ -69,6 +76,13 @@ impl Ring {
             [cos, sin] = unit(cos, sin);
         }
         [cos, sin]
+    }
+
+    /// Its point that is lowest along a direction.
+    pub fn lowest(&self, along: &Point<3>) -> Lowest {
+        let [_, across, upward] = parts_of(&self.section).map(|part| part.dot(along));
+        let place = on_section(&self.section, (-upward).atan2(-across));
+        Lowest { place, value: place.dot(along) }
     }
 
     /// Square of the distance of a point (m2).

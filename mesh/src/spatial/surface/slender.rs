@@ -147,6 +147,15 @@ impl Slender {
         self.rings.iter().flat_map(|ring| ring_corners(&ring.section))
     }
 
+    /// Places (m) about which it is farthest against a direction: on the sections that are farther than those beside them.
+    #[must_use]
+    pub fn farthest_against(&self, direction: Point<3>) -> Vec<Point<3>> {
+        let all: Vec<_> = self.rings.iter().map(|ring| ring.lowest(&direction)).collect();
+        let at = |nth: usize| all.get(nth).map_or(f64::INFINITY, |lowest| lowest.value);
+        let is_least = |nth: usize| at(nth) < at(nth.wrapping_sub(1)) && at(nth) <= at(nth + 1);
+        (0..all.len()).filter(|nth| is_least(*nth)).map(|nth| all[nth].place).collect()
+    }
+
     /// The nearest point to a point (m) of its frame, the normal outward.
     #[must_use]
     pub fn foot(&self, of: Point<3>) -> Foot {

@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::spatial::SpaceSpline;
+use crate::spatial::closest::facing;
 use crate::spatial::curve::Centreline;
+use crate::spatial::sections::on_section;
 use crate::spatial::sections::test_bodies::{bent_fish, ellipsoid};
 use nalgebra::{Translation3, UnitQuaternion};
 
@@ -137,4 +139,25 @@ fn a_slender_body_of_elliptic_sections_is_an_ellipsoid() {
 fn tangents(normal: &Point<3>) -> [Point<3>; 2] {
     let u = normal.cross(&Point::<3>::new(0.3, 0.5, -0.8)).normalize();
     [u, normal.cross(&u)]
+}
+
+/// A bent body lies nearest to a plane where the lowest of many of its points is, by a search from few places.
+#[test]
+fn the_gap_of_a_slender_body_to_a_plane_is_that_of_its_lowest_point() {
+    let body = Slender::new(bent_fish());
+    let surface = SmoothSurface::new(Form::Slender(Arc::new(body)), &Isometry3::identity(), false);
+    for normal in directions(40) {
+        let mut plane = SmoothSurface::plane(normal * -2.0, 0, 1.0);
+        plane.rotation.set_column(0, &normal);
+        let found = facing(&surface, &plane, f64::INFINITY);
+        let least = found.iter().map(|at| at.gap).fold(f64::INFINITY, f64::min);
+        let Form::Slender(slender) = &surface.form else { unreachable!() };
+        let points = (0..4000).flat_map(|i| {
+            let section =
+                slender.sections().at(slender.sections().end() * f64::from(i) / 4000.0)[0];
+            (0..90).map(move |k| on_section(&section, f64::from(k) * std::f64::consts::TAU / 90.0))
+        });
+        let sampled = points.map(|point| plane.gap(point)).fold(f64::INFINITY, f64::min);
+        assert!(least <= sampled + 1e-12 && sampled < least + 1e-3, "{normal}: {least} {sampled}");
+    }
 }
