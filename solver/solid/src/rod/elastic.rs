@@ -107,6 +107,18 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
         Ok(Self { kinematics, knots, laws, flexures, mass })
     }
 
+    /// The same rod, in which what only fixes the vectors across at the knots relaxes within a time (s): without mass nothing else
+    /// determines its rates where no time passes.
+    #[must_use]
+    pub fn with_relaxation(mut self, time: f64) -> Self {
+        for law in self.laws.iter_mut().flatten() {
+            if law.kind == StrainKind::Gauge {
+                law.damping = law.stiffness * time;
+            }
+        }
+        self
+    }
+
     /// Distances of the knots along the rod (m).
     #[must_use]
     pub fn knots(&self) -> &[f64] {

@@ -35,7 +35,7 @@ pub use planar::{
 pub use properties::{Flexure, PlanarProperties, RodProperties, SpatialProperties};
 pub use section::Section;
 pub use spatial::{
-    SpatialEndLoad, SpatialEndPose, SpatialRod, SpatialRodBody, SpatialSectionPoint,
-    SpatialSurfaceRows,
+    SpatialEndLoad, SpatialEndPose, SpatialLoadedEnd, SpatialRod, SpatialRodBody,
+    SpatialSectionPoint, SpatialSurfaceRows,
 };
 pub use supports::{HeldEnd, Supports};

@@ -3,12 +3,15 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::ends::SpatialEndPose;
+use super::loaded_end::SpatialLoadedEnd;
 use super::spatial_rod::SpatialRod;
 use super::surface::{SpatialSectionPoint, SpatialSurfaceRows};
 use crate::rod::center::center_weights;
 use crate::rod::loads::LineForce;
 use crate::rod::supports::Supports;
-use crate::structure::{Flexible, Held, InnerPower, Load, Structure, Tangents, Weight};
+use crate::structure::{
+    BaseMotion, Bend, Flexible, GivenLoad, Held, InnerPower, Load, Structure, Tangents, Weight,
+};
 
 /// A rod in space as a body in a flow. Its material points are named by their places where the rod is straight.
 #[derive(Debug)]
@@ -19,6 +22,7 @@ pub struct SpatialRodBody {
     initial: DVector<f64>,
     supports: Supports<SpatialEndPose>,
     weight: Option<LineForce>,
+    ends: Vec<SpatialLoadedEnd>,
 }
 
 impl SpatialRodBody {
@@ -26,7 +30,7 @@ impl SpatialRodBody {
     #[must_use]
     pub fn new(rod: SpatialRod, base: SpatialEndPose, supports: Supports<SpatialEndPose>) -> Self {
         let initial = rod.straight(base.place, base.rotation);
-        Self { rod, base, initial, supports, weight: None }
+        Self { rod, base, initial, supports, weight: None, ends: Vec::new() }
     }
 
     /// With other coordinates at the start.
@@ -39,6 +43,12 @@ impl SpatialRodBody {
     #[must_use]
     pub fn loaded(self, weight: LineForce) -> Self {
         Self { weight: Some(weight), ..self }
+    }
+
+    /// With forces at its ends.
+    #[must_use]
+    pub fn with_loaded_ends(self, ends: Vec<SpatialLoadedEnd>) -> Self {
+        Self { ends, ..self }
     }
 
     /// The rod.
@@ -74,11 +84,14 @@ impl Structure for SpatialRodBody {
         velocities: &DVector<f64>,
         time: f64,
     ) -> DVector<f64> {
-        let forces = self.rod.forces(coordinates, velocities, time);
-        match &self.weight {
-            Some(weight) => forces - weight.load(coordinates, velocities, time),
-            None => forces,
+        let mut forces = self.rod.forces(coordinates, velocities, time);
+        if let Some(weight) = &self.weight {
+            forces -= weight.load(coordinates, velocities, time);
         }
+        for end in &self.ends {
+            end.subtract(&self.rod, time, &mut forces);
+        }
+        forces
     }
 
     fn tangents(
@@ -100,7 +113,9 @@ impl Structure for SpatialRodBody {
         velocities: &DVector<f64>,
         time: f64,
     ) -> InnerPower {
-        self.rod.inner_power(coordinates, velocities, time)
+        let power = |end: &SpatialLoadedEnd| end.power(&self.rod, velocities, time);
+        let ends = self.ends.iter().map(power).sum();
+        InnerPower { ends, ..self.rod.inner_power(coordinates, velocities, time) }
     }
 }
 
@@ -114,7 +129,7 @@ impl Flexible for SpatialRodBody {
     }
 
     fn place(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vector3<f64> {
-        self.at(coordinates, rest).place
+        self.rod.surface_place(coordinates, self.section_point(rest))
     }
 
     fn weights(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vec<Weight> {
@@ -126,7 +141,41 @@ impl Flexible for SpatialRodBody {
         (0..rows.weights.ncols()).map(weight).collect()
     }
 
+    /// Directions count by the element they are at an end of, vectors across by the thickness that is not known here: as those.
+    fn length_of(&self, coordinate: usize) -> f64 {
+        let knots = self.rod.knots();
+        let element = (coordinate / 9).min(knots.len() - 2);
+        if coordinate % 9 < 3 { 1.0 } else { knots[element + 1] - knots[element] }
+    }
+
+    fn given_load(&self, time: f64) -> GivenLoad {
+        let force = self.ends.iter().map(|end| (end.force)(time)).sum();
+        GivenLoad { force, ..GivenLoad::default() }
+    }
+
     fn center_weights(&self) -> Vec<Weight> {
         center_weights(&self.rod)
+    }
+
+    fn base(&self, coordinates: &DVector<f64>, velocities: &DVector<f64>) -> Option<BaseMotion> {
+        Some(self.rod.base_motion(coordinates, velocities))
+    }
+
+    fn rigid_velocities(
+        &self,
+        coordinates: &DVector<f64>,
+        motion: &BaseMotion,
+    ) -> Option<DVector<f64>> {
+        Some(self.rod.rigid_velocities(coordinates, motion))
+    }
+
+    fn bend(&self, coordinates: &DVector<f64>) -> Option<Bend> {
+        let knots = self.rod.knots();
+        let middles = knots.windows(2).map(|ends| 0.5 * (ends[0] + ends[1]));
+        let curvatures = middles.map(|along| self.rod.turning(coordinates, along).xy().norm());
+        Some(Bend {
+            tip: self.rod.place(coordinates, *knots.last()?),
+            curvature: curvatures.fold(0.0, f64::max),
+        })
     }
 }

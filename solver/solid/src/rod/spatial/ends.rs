@@ -2,9 +2,10 @@
 
 use nalgebra::{DVector, Rotation3, SMatrix, Vector3};
 
+use super::frame::Frame;
 use super::spatial_rod::SpatialRod;
 use crate::rod::end::{End, Support};
-use crate::structure::Held;
+use crate::structure::{BaseMotion, Held};
 
 /// Coordinates of a knot.
 const KNOT: usize = 9;
@@ -106,5 +107,46 @@ impl SpatialRod {
         let part = |of: &DVector<f64>, i: usize| of.fixed_rows::<3>(first + 3 * i).into_owned();
         let moment = |i: usize| part(coordinates, i).cross(&part(residual, i));
         SpatialEndLoad { force: part(residual, 0), moment: moment(1) + moment(2) }
+    }
+
+    /// Where the base is, and how it moves: as the frame of the section there.
+    pub(super) fn base_motion(
+        &self,
+        coordinates: &DVector<f64>,
+        velocities: &DVector<f64>,
+    ) -> BaseMotion {
+        let part = |of: &DVector<f64>, first: usize| of.fixed_rows::<3>(first).into_owned();
+        let across = part(coordinates, 6);
+        let frame = Frame::new(&part(coordinates, 3).into(), &across.into());
+        let [tangent, second] = [frame.tangent, frame.second].map(Vector3::from);
+        let rate = part(velocities, 3);
+        let bending = tangent.cross(&rate) / frame.stretch;
+        let twisting = part(velocities, 6).dot(&second)
+            - across.dot(&tangent) * rate.dot(&second) / frame.stretch;
+        BaseMotion {
+            place: part(coordinates, 0),
+            velocity: part(velocities, 0),
+            angular_velocity: bending + tangent * (twisting / frame.width),
+        }
+    }
+
+    /// Velocities in a rigid motion.
+    pub(super) fn rigid_velocities(
+        &self,
+        coordinates: &DVector<f64>,
+        motion: &BaseMotion,
+    ) -> DVector<f64> {
+        let BaseMotion { place, velocity, angular_velocity } = motion;
+        let mut rates = DVector::zeros(coordinates.len());
+        for first in (0..coordinates.len()).step_by(3) {
+            let vector = coordinates.fixed_rows::<3>(first).into_owned();
+            let rate = if first % KNOT == 0 {
+                velocity + angular_velocity.cross(&(vector - place))
+            } else {
+                angular_velocity.cross(&vector)
+            };
+            rates.fixed_rows_mut::<3>(first).copy_from(&rate);
+        }
+        rates
     }
 }

@@ -58,6 +58,19 @@ impl SpatialRod {
         }
         SpatialSurfaceRows { place, first: at.element * Self::STRIDE, weights }
     }
+
+    /// The place of such a point (m).
+    #[must_use]
+    pub fn surface_place(
+        &self,
+        coordinates: &DVector<f64>,
+        point: SpatialSectionPoint,
+    ) -> Vector3<f64> {
+        let at = self.locate(point.along);
+        let basis = Hermite::at(at.xi, at.length);
+        let values = self.of_element(coordinates, at.element).into();
+        Vector3::from(material(&basis, at.xi, &values, point.offset))
+    }
 }
 
 /// Place of a point of a section.

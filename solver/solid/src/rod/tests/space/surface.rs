@@ -4,8 +4,11 @@ use nalgebra::{DVector, Rotation3, Vector3, Vector6};
 
 use super::common::{along_x, simple};
 use crate::rod::tests::common::scatter;
-use crate::rod::{Along, End, SpatialEndPose, SpatialSectionPoint, Support};
-use crate::structure::Structure;
+use crate::rod::{
+    Along, End, SpatialEndPose, SpatialLoadedEnd, SpatialRodBody, SpatialSectionPoint, Support,
+    Supports,
+};
+use crate::structure::{BaseMotion, Flexible, Structure};
 
 #[test]
 fn rows_are_derivatives_of_places() {
@@ -78,4 +81,49 @@ fn an_end_on_a_body_has_the_velocity_of_the_body() {
         let rate = (then.value - now.value) / step;
         assert!((rate - now.rate).abs() < 1e-5, "{now:?} but {rate}");
     }
+}
+
+/// Whatever the vectors across are.
+#[test]
+fn the_base_of_a_rod_has_the_rigid_motion_it_is_in() {
+    let rod = simple(3);
+    let rotation = Rotation3::new(Vector3::new(0.3, 0.2, -0.5));
+    let curved =
+        rod.curved(Vector3::new(0.1, 0.2, 0.3), rotation, &[1.0, -2.0, 3.0].map(Along::Constant));
+    let q = &curved + scatter(curved.len(), 0.5) * 0.1;
+    let body = SpatialRodBody::new(rod, SpatialEndPose::default(), Supports::FREE);
+    let motion = BaseMotion {
+        place: q.fixed_rows::<3>(0).into_owned(),
+        velocity: Vector3::new(0.3, 0.1, -0.2),
+        angular_velocity: Vector3::new(1.0, -0.5, 0.7),
+    };
+    let rates = body.rigid_velocities(&q, &motion).expect("it is known");
+    let found = body.base(&q, &rates).expect("it has a base");
+    assert_eq!(found.place, motion.place);
+    assert!((found.velocity - motion.velocity).norm() < 1e-15);
+    assert!((found.angular_velocity - motion.angular_velocity).norm() < 1e-13, "{found:?}");
+    // Inner forces do no work in it
+    let power = body.forces(&q, &DVector::zeros(q.len()), 0.0).dot(&rates);
+    assert!(power.abs() < 1e-8 * body.elastic_energy(&q, 0.0), "{power}");
+}
+
+#[test]
+fn a_force_at_an_end_does_its_work_there() {
+    let rod = simple(3);
+    let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.5) * 0.1;
+    let rates = scatter(rod.n_coordinates(), 1.3);
+    let body = || SpatialRodBody::new(rod.clone(), SpatialEndPose::default(), Supports::FREE);
+    let force = |time: f64| Vector3::new(0.3, -0.2, 0.5) * time;
+    let at_tip = SpatialLoadedEnd { end: End::Tip, force: Box::new(force) };
+    let loaded = body().with_loaded_ends(vec![at_tip]);
+    let without = body().forces(&q, &rates, 2.0);
+    let change = loaded.forces(&q, &rates, 2.0) - &without;
+    // Inner forces are large, as stretched rods are stiff
+    let rounding = 4.0 * f64::EPSILON * without.norm() * rates.norm();
+    let power = loaded.inner_power(&q, &rates, 2.0).ends;
+    let velocity =
+        rod.surface(&q, SpatialSectionPoint { along: 1.0, offset: [0.0; 2] }).velocity(&rates);
+    assert!((power - force(2.0).dot(&velocity)).abs() < 1e-13, "{power}");
+    assert!((change.dot(&rates) + power).abs() < rounding.max(1e-12), "{power}");
+    assert_eq!(loaded.given_load(2.0).force, force(2.0));
 }
