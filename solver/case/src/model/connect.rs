@@ -169,11 +169,15 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
         }
     }
     let muscles = body.activation.iter_mut().flat_map(|active| {
-        [("curvature", active.curvature.as_mut()), ("moment", active.moment.as_mut())]
+        let about_z = [("curvature", &mut active.curvature), ("moment", &mut active.moment)];
+        let about_y =
+            [("curvature_y", &mut active.curvature_y), ("moment_y", &mut active.moment_y)];
+        let all = about_z.map(|(key, stroke)| ("activation", key, stroke)).into_iter();
+        all.chain(about_y.map(|(key, stroke)| ("activation_y", key, stroke)))
     });
-    for (name, stroke) in muscles {
-        if let Some(command) = of_stroke(stroke) {
-            found.push(("activation".to_owned(), format!("activation.{name}"), command));
+    for (name, key, stroke) in muscles {
+        if let Some(command) = of_stroke(stroke.as_mut()) {
+            found.push((name.to_owned(), format!("activation.{key}"), command));
         }
     }
     found.extend(body.rod.iter_mut().filter_map(|rod| rod.load.as_mut()).flat_map(of_ends));
@@ -191,7 +195,7 @@ fn of_ends(loads: &mut EndLoads) -> Vec<Found<'_>> {
     let mut found: Vec<Found<'_>> = Vec::new();
     for at_end in loads.ends_mut() {
         let EndLoadSpec { force, moment } = at_end.load;
-        let forces = force.iter_mut().zip(["x", "y"]).enumerate();
+        let forces = force.iter_mut().zip(["x", "y", "z"]).enumerate();
         let forces = forces.map(|(axis, (stroke, name))| {
             (format!("force.{name}"), format!("force.{axis}"), stroke)
         });

@@ -3,7 +3,7 @@
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 35] = [
+pub const CHOICES: [&str; 37] = [
     "drive",
     "kind",
     "law",
@@ -31,8 +31,10 @@ pub const CHOICES: [&str; 35] = [
     "until",
     "viscosity",
     "curvature",
+    "curvature_y",
     "hold",
     "moment",
+    "moment_y",
     "rest",
     "angular_factor",
     "rotation",

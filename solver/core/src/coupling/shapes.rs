@@ -110,13 +110,18 @@ impl BodyShapes {
             let deformed = body.deformed_at(time, &coordinates[own])?;
             let Some(deformed) = deformed else { return Ok(None) };
             let refuse = |reason| ShapeError { body: body.name.clone(), reason };
-            // A body in space crosses itself where its outline in the plane of the midline does
-            let outline = deformed.outline(time).map_err(refuse)?;
+            let outline = || deformed.outline(time).map_err(refuse);
             let boundary = match body.pose.orientation {
-                Orientation::Planar(_) => ShapeBoundary::Curve(outline),
-                Orientation::Spatial(_) => ShapeBoundary::Surface(
-                    deformed.surface().ok_or(GaitError::Shape).map_err(refuse)?,
-                ),
+                Orientation::Planar(_) => ShapeBoundary::Curve(outline()?),
+                Orientation::Spatial(_) => {
+                    // A body in space crosses itself where its outline in the plane of the midline does, if it has such a plane
+                    if !deformed.follows_coordinates() {
+                        outline()?;
+                    }
+                    ShapeBoundary::Surface(
+                        deformed.surface().ok_or(GaitError::Shape).map_err(refuse)?,
+                    )
+                }
             };
             Ok(Some(Arc::new(BodyShape { deformed, boundary })))
         };

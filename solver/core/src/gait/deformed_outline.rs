@@ -9,9 +9,9 @@ use nalgebra::{Isometry3, Vector3};
 use super::closed::on_outline;
 
 use super::error::GaitError;
-use super::flexible::CarriedOutline;
+use super::flexible::Carried;
 use super::recoil::RecoilMotion;
-use crate::structure::{Flexible, SectionMotion, Weight};
+use crate::structure::Flexible;
 
 /// A material point of a body that deforms.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,7 +77,9 @@ pub(super) enum MaterialCurve {
     /// Positions (m) and velocities (m/s), linear in the same parameter.
     Spline { points: Arc<Spline>, rates: Spline },
     /// Points carried by coordinates, and the spline through some of them.
-    Carried { points: Arc<Spline>, carried: CarriedOutline },
+    Carried { points: Arc<Spline>, carried: Carried<Spline> },
+    /// Points of a surface in space carried by coordinates, and the sections through some of them.
+    CarriedSections { surface: Arc<Slender>, carried: Carried<Sections> },
     /// Sections in space, and those of their velocities.
     Sections { surface: Arc<Slender>, rates: Sections },
     /// A disc or a sphere; the parameter is the angle.
@@ -124,6 +126,8 @@ impl MaterialCurve {
                 Shape::Curve { spline: Arc::clone(points) }
             }
             Self::Sections { .. } => Shape::Curve { spline: Arc::new(self.outline()?) },
+            // It bends out of any plane
+            Self::CarriedSections { .. } => return None,
             Self::Round { radius, is_sphere: true, .. } => Shape::Sphere { radius },
             Self::Round { radius, is_sphere: false, .. } => Shape::Disc { radius },
         })
@@ -131,7 +135,7 @@ impl MaterialCurve {
 }
 
 impl DeformedOutline {
-    /// The outline, whose parameter is a material point; of a body in space in the plane of its midline.
+    /// The outline, whose parameter is a material point; of a body in space in the plane of its midline, `None` where it has none.
     #[must_use]
     pub fn shape(&self) -> Option<Shape> {
         self.curve.shape()
@@ -141,7 +145,8 @@ impl DeformedOutline {
     #[must_use]
     pub fn solid(&self) -> Option<spatial::Shape> {
         match &self.curve {
-            MaterialCurve::Sections { surface, .. } => {
+            MaterialCurve::Sections { surface, .. }
+            | MaterialCurve::CarriedSections { surface, .. } => {
                 Some(spatial::Shape::Slender(Arc::clone(surface)))
             }
             MaterialCurve::Round { radius, is_sphere: true, .. } => {
@@ -185,7 +190,8 @@ impl DeformedOutline {
             MaterialCurve::Carried { carried, .. } => {
                 carried.place(&carried.rest_place(parameter)).xy()
             }
-            MaterialCurve::Sections { surface, .. } => {
+            MaterialCurve::Sections { surface, .. }
+            | MaterialCurve::CarriedSections { surface, .. } => {
                 let sections = surface.sections();
                 sections.point(on_outline(sections, parameter)).xy()
             }
@@ -199,7 +205,9 @@ impl DeformedOutline {
     pub fn rate(&self, parameter: f64) -> Point<2> {
         match &self.curve {
             MaterialCurve::Spline { rates, .. } => rates.evaluate(parameter)[0],
-            MaterialCurve::Carried { .. } => Point::<2>::zeros(),
+            MaterialCurve::Carried { .. } | MaterialCurve::CarriedSections { .. } => {
+                Point::<2>::zeros()
+            }
             MaterialCurve::Sections { rates, .. } => rates.point(on_outline(rates, parameter)).xy(),
             MaterialCurve::Round { radial_speed, .. } => radial(parameter) * *radial_speed,
         }
@@ -211,7 +219,8 @@ impl DeformedOutline {
     #[must_use]
     pub fn material_at(&self, point: &Vector3<f64>) -> MaterialPoint {
         match &self.curve {
-            MaterialCurve::Sections { surface, .. } => {
+            MaterialCurve::Sections { surface, .. }
+            | MaterialCurve::CarriedSections { surface, .. } => {
                 let SectionPoint { along, around } = surface.parameter_of(*point);
                 MaterialPoint { along, around }
             }
@@ -229,6 +238,9 @@ impl DeformedOutline {
     pub fn place(&self, at: MaterialPoint) -> Vector3<f64> {
         match &self.curve {
             MaterialCurve::Sections { surface, .. } => surface.sections().point(at.into()),
+            MaterialCurve::CarriedSections { carried, .. } => {
+                carried.place(&carried.rest_place(at.into()))
+            }
             MaterialCurve::Spline { .. }
             | MaterialCurve::Carried { .. }
             | MaterialCurve::Round { .. } => around_axis(self.position(at.along), at.around),
@@ -236,56 +248,15 @@ impl DeformedOutline {
     }
 
     /// Velocity of a material point of a surface in space in the body frame (m/s): the rate of
-    /// [`Self::place`].
+    /// [`Self::place`], without what coordinates of the body give of it.
     #[must_use]
     pub fn velocity(&self, at: MaterialPoint) -> Vector3<f64> {
         match &self.curve {
             MaterialCurve::Sections { rates, .. } => rates.point(at.into()),
+            MaterialCurve::CarriedSections { .. } => Vector3::zeros(),
             MaterialCurve::Spline { .. }
             | MaterialCurve::Carried { .. }
             | MaterialCurve::Round { .. } => around_axis(self.rate(at.along), at.around),
-        }
-    }
-}
-
-impl DeformedOutline {
-    /// Where a point of an outline that follows coordinates is at rest (m), by its parameter; `None` of another outline.
-    #[must_use]
-    pub fn rest_place(&self, parameter: f64) -> Option<Vector3<f64>> {
-        Some(self.carried()?.rest_place(parameter))
-    }
-
-    /// The velocity of the point at a place at rest (m) by those of the coordinates, in the frame of the body; none
-    /// of an outline that follows no coordinates.
-    #[must_use]
-    pub fn weights(&self, rest: &Vector3<f64>) -> Vec<Weight> {
-        self.carried().map(|carried| carried.weights(rest)).unwrap_or_default()
-    }
-
-    /// Whether it follows coordinates.
-    #[must_use]
-    pub fn follows_coordinates(&self) -> bool {
-        self.carried().is_some()
-    }
-
-    /// After which the parameter of an outline that follows coordinates is where it began; `None` of another outline.
-    #[must_use]
-    pub fn period(&self) -> Option<f64> {
-        Some(self.carried()?.period())
-    }
-
-    /// How the section moves that a point of an outline that follows coordinates is on, by the parameter of the point; its
-    /// place is in the frame of the body. `None` of another outline.
-    #[must_use]
-    pub fn section(&self, parameter: f64) -> Option<SectionMotion> {
-        let carried = self.carried()?;
-        carried.section(&carried.rest_place(parameter))
-    }
-
-    fn carried(&self) -> Option<&CarriedOutline> {
-        match &self.curve {
-            MaterialCurve::Carried { carried, .. } => Some(carried),
-            _ => None,
         }
     }
 }

@@ -261,7 +261,7 @@ impl MaterialCurve {
                 knots.push(2.0 * end);
                 Spline::with_knots(&points, &knots)
             }
-            Self::Round { .. } => None,
+            Self::CarriedSections { .. } | Self::Round { .. } => None,
         }
     }
 }

@@ -4,6 +4,7 @@ mod closed;
 mod deformed_outline;
 mod error;
 mod flexible;
+mod following;
 mod grid;
 mod hull;
 mod midline;
@@ -20,7 +21,7 @@ mod tests;
 
 pub use deformed_outline::{DeformedOutline, MaterialPoint, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;
-pub use flexible::FlexibleShape;
+pub use flexible::{FlexibleShape, FlexibleSurface};
 pub use midline::{
     AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Open, Own,
 };

@@ -210,9 +210,9 @@ pub enum RunError {
 /// A body with coordinates that comes near itself.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "`{body}` is {gap:.2e} from itself at ({:.4}, {:.4}), where it is {:.3} and {:.3} from its head: contact of a rod with \
+    "`{body}` is {gap:.2e} from itself at ({}), where it is {:.3} and {:.3} from its head: contact of a rod with \
      itself is not computed; make the rod stiffer or shorter, load it less, or end the run before, by time.unsteady.end",
-    place[0], place[1], along[0], along[1]
+    as_told(place), along[0], along[1]
 )]
 pub struct Meeting {
     /// Name of the body.
@@ -220,9 +220,14 @@ pub struct Meeting {
     /// Distances of both points from its head (m).
     pub along: [f64; 2],
     /// Where it is (m).
-    pub place: [f64; 2],
+    pub place: Vec<f64>,
     /// How near (m).
     pub gap: f64,
+}
+
+/// Coordinates of a place as they are told.
+fn as_told(place: &[f64]) -> String {
+    place.iter().map(|part| format!("{part:.4}")).collect::<Vec<_>>().join(", ")
 }
 
 impl RunError {

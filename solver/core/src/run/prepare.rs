@@ -126,7 +126,6 @@ fn check_coordinates<const D: usize>(case: &Case, problem: &Problem<D>) -> Resul
         TimeSettings::Unsteady(settings) if settings.scheme == Scheme::Rk3
     );
     let refused = [
-        (D == 3, "in space yet", "take geometry = \"planar\""),
         (is_explicit, "by explicit steps", "write time.unsteady.scheme = \"bdf2\""),
         (problem.has_joints(), "beside joints yet", "leave out [[joint]]"),
         (

@@ -9,9 +9,9 @@ use super::body::joints::start;
 use crate::model::speed::{norm, weight};
 use crate::text::diagnostic::{Diagnostic, Severity};
 use crate::{
-    Body, BoundaryCondition, CaseFile, DomainSpec, Driven, DrivenLaw, Formula, GaitSpec, Geometry,
-    Hold, Joint, JointKind, LoadFrame, Lock, MeanFlowSpec, Model, Motion, Orientation, ShapeSpec,
-    Stroke, TimeFunction, TimeSettings,
+    Activation, Body, BoundaryCondition, CaseFile, DomainSpec, Driven, DrivenLaw, Formula,
+    GaitSpec, Geometry, Hold, Joint, JointKind, LoadFrame, Lock, MeanFlowSpec, Model, Motion,
+    Orientation, ShapeSpec, Stroke, TimeFunction, TimeSettings,
 };
 
 /// Length over that of a body, or angle (rad), below which a spring is at rest.
@@ -158,9 +158,9 @@ fn rod_drives(body: &Body) -> bool {
     });
     let acts = |stroke: &Stroke| moves(stroke) || stroke.at(0.0)[0] != 0.0;
     let active = body.activation.as_ref();
-    let stroke = active.and_then(|active| active.curvature.as_ref().or(active.moment.as_ref()));
+    let mut strokes = active.into_iter().flat_map(Activation::strokes);
     let mut loads = body.end_loads().flat_map(|at| at.load.strokes());
-    turns || stroke.is_some_and(acts) || loads.any(acts)
+    turns || strokes.any(acts) || loads.any(acts)
 }
 
 /// Whether the spring of a body is not at rest at the start.

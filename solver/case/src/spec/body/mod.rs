@@ -325,15 +325,15 @@ pub struct Body {
     pub magnetic_moment: Vec<f64>,
     /// Makes it bend as an elastic rod; a slender body only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     pub rod: Option<RodSpec>,
     /// What holds the head of a rod; it is free if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     pub attached: Option<Attached>,
     /// Muscles or motors within a rod.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar", "spatial"])))]
     pub activation: Option<Activation>,
     /// Cell size on its surface (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]

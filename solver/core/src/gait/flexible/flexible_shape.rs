@@ -5,7 +5,7 @@ use std::sync::Arc;
 use alewife_mesh::{Moments, Point, Shape, Spline};
 use nalgebra::DVector;
 
-use super::carried_outline::CarriedOutline;
+use super::carried::Carried;
 use crate::gait::deformed_outline::{
     DeformedOutline, MaterialCurve, RecoilCorrection, ShapeMotion,
 };
@@ -39,7 +39,7 @@ impl ShapeMotion for FlexibleShape {
         coordinates: &[f64],
     ) -> Result<DeformedOutline, GaitError> {
         let coordinates = DVector::from_column_slice(coordinates);
-        let carried = CarriedOutline::new(&self.rest, &self.body, coordinates);
+        let carried = Carried::new(&self.rest, &self.body, coordinates);
         let knots = self.rest.knots();
         let place = |knot: &f64| carried.place(&carried.rest_place(*knot)).xy();
         let points: Vec<[f64; 2]> =

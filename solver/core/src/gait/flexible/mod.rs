@@ -1,7 +1,9 @@
-//! Outlines that follow the coordinates of a body.
+//! Outlines and surfaces that follow the coordinates of a body.
 
-mod carried_outline;
+mod carried;
 mod flexible_shape;
+mod flexible_surface;
 
-pub(super) use self::carried_outline::CarriedOutline;
+pub(super) use self::carried::Carried;
 pub use self::flexible_shape::FlexibleShape;
+pub use self::flexible_surface::FlexibleSurface;

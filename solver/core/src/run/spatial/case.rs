@@ -12,7 +12,7 @@ use crate::gait::DeformedOutline;
 use crate::motion::Limits;
 use crate::motion::MotionSettings;
 use crate::run::RunError;
-use crate::run::build::{limits, motion_settings, no_solid, shape_motion, sizing};
+use crate::run::build::{limits, motion_settings, no_solid, rod_shape, shape_motion, sizing};
 
 /// What stays the same over all meshes of a run.
 #[derive(Debug)]
@@ -85,7 +85,10 @@ pub(super) fn solids(model: &Model) -> Result<Vec<Solid>, RunError> {
     let scale = model.case.mesh.scale;
     let solid = |body: &Body| {
         let rest = body.solid(scale).ok_or_else(|| no_solid(body))?;
-        let motion = shape_motion(body, model.case.geometry)?;
+        let motion = match rod_shape(&model.case, body)? {
+            Some(rod) => Some(rod),
+            None => shape_motion(body, model.case.geometry)?,
+        };
         let start = motion.map(|motion| motion.at(0.0)).transpose();
         let start = start.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
         Ok(with_shape(rest, start.as_ref()))

@@ -67,34 +67,46 @@ impl CaseMesh<3> for Dimension<3> {
     ) -> Result<MovingMesh<3>, RunError> {
         let Reference { saved, mesh } = reference;
         let failed = |error| ResumeError::from(error).into();
-        moving(model, problem, mesh, saved.poses.clone(), saved.time, failed)
+        let at = Placed {
+            poses: saved.poses.clone(),
+            coordinates: saved.coordinates.clone(),
+            time: saved.time,
+        };
+        moving(model, problem, mesh, at, failed)
     }
 }
 
 /// A mesh with what moves it, its bodies moved by whole periods (m).
 fn initial(mesh: Mesh<3>, shifts: Vec<Vector3<f64>>) -> InitialMesh<3> {
     let make: MakeMovingMesh<3> = Box::new(|model, problem, mesh, poses| {
-        moving(model, problem, mesh, poses, 0.0, RunError::from_remesh)
+        let at = Placed { poses, coordinates: problem.initial_coordinates(), time: 0.0 };
+        moving(model, problem, mesh, at, RunError::from_remesh)
     });
     InitialMesh { mesh, shifts, make_moving: make }
 }
 
-/// What moves a mesh that was generated at a time (s) with the bodies at poses; `failed` says what it means
-/// that it cannot be set up.
+/// Bodies as a mesh was generated for them: poses in it, coordinates of all of them, and when (s).
+struct Placed {
+    poses: MeshPoses,
+    coordinates: Vec<f64>,
+    time: f64,
+}
+
+/// What moves a mesh that was generated with the bodies so; `failed` says what it means that it cannot be set up.
 fn moving(
     model: &Model,
     problem: &Problem<3>,
     mesh: &Mesh<3>,
-    poses: MeshPoses,
-    time: f64,
+    at: Placed,
     failed: fn(RemeshError) -> RunError,
 ) -> Result<MovingMesh<3>, RunError> {
+    let Placed { poses, coordinates, time } = at;
     let case = Arc::new(SpatialCase::new(model, problem)?);
-    let shapes = BodyShapes::at(&problem.bodies, time)?;
+    let shapes = BodyShapes::with(&problem.bodies, time, &coordinates)?;
     let moving = || -> Result<_, RemeshError> {
         let settings = case.motion.clone();
         let scene = SpatialScene::new(Arc::clone(&case), mesh, &poses, &shapes)?;
         Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, time)?)
     };
-    moving().map_err(failed)
+    Ok(moving().map_err(failed)?.with_coordinates(coordinates))
 }

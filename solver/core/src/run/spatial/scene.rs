@@ -1,6 +1,6 @@
 //! `SpatialScene`: domain and surfaces of the bodies of a mesh in space.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use alewife_mesh::spatial::{GapQuery, estimate_cells, generate};
@@ -13,17 +13,24 @@ use crate::contact::{Gaps, SpatialGaps, frame_of};
 use crate::coupling::BodyShapes;
 use crate::gait::MaterialPoint;
 use crate::motion::{Fresh, needs_remesh};
-use crate::motion::{Meshed, MostCells, PosesByShift, RemeshError, Scene};
+use crate::motion::{Meshed, MostCells, PosesByShift, RemeshError, RestPlace, Scene};
 
 /// Domain and bodies as they were meshed.
 #[derive(Debug)]
 pub(super) struct SpatialScene {
     case: Arc<SpatialCase>,
     /// Material points of the nodes on bodies that deform.
-    materials: HashMap<NodeId, MaterialPoint>,
+    materials: BTreeMap<NodeId, OnSurface>,
     fresh: Fresh,
     surroundings: GapQuery,
     gaps: SpatialGaps,
+}
+
+/// A point of the surface of a body that deforms.
+#[derive(Debug, Clone, Copy)]
+struct OnSurface {
+    body: usize,
+    at: MaterialPoint,
 }
 
 impl SpatialScene {
@@ -49,8 +56,8 @@ fn materials(
     mesh: &Mesh<3>,
     poses: &MeshPoses,
     shapes: &BodyShapes,
-) -> HashMap<NodeId, MaterialPoint> {
-    let mut materials = HashMap::new();
+) -> BTreeMap<NodeId, OnSurface> {
+    let mut materials = BTreeMap::new();
     for facet in &mesh.facets {
         let BoundaryKind::Body(body) = mesh.boundaries[facet.boundary].kind else { continue };
         let Some(deformed) = shapes.deformed(body) else { continue };
@@ -58,7 +65,8 @@ fn materials(
         for node in mesh.facet_nodes(facet) {
             materials.entry(node).or_insert_with(|| {
                 let lever = mesh.nodes[node] - pose.center;
-                deformed.material_at(&(pose.rotation().inverse() * lever))
+                let at = deformed.material_at(&(pose.rotation().inverse() * lever));
+                OnSurface { body, at }
             });
         }
     }
@@ -86,7 +94,15 @@ impl Scene<3> for SpatialScene {
         body: usize,
         shapes: &BodyShapes,
     ) -> Option<Vector3<f64>> {
-        Some(shapes.deformed(body)?.place(*self.materials.get(&node)?))
+        Some(shapes.deformed(body)?.place(self.materials.get(&node)?.at))
+    }
+
+    fn rest_places(&self, shapes: &BodyShapes) -> Vec<RestPlace> {
+        let place = |(node, on): (&NodeId, &OnSurface)| {
+            let place = shapes.deformed(on.body)?.rest_place_in_space(on.at)?;
+            Some(RestPlace { node: *node, body: on.body, place })
+        };
+        self.materials.iter().filter_map(place).collect()
     }
 
     fn lowest_quality(&self) -> f64 {

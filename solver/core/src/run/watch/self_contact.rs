@@ -1,10 +1,11 @@
 //! Whether a body with coordinates has bent so far that it comes near itself, which no law of contact knows.
 
-use alewife_mesh::Point;
+use std::f64::consts::TAU;
+
 use nalgebra::Vector3;
 
 use crate::coupling::BodyShapes;
-use crate::gait::DeformedOutline;
+use crate::gait::{DeformedOutline, MaterialPoint};
 use crate::run::error::{Meeting, RunError};
 use crate::run::run::Run;
 use crate::run::simulation::Simulation;
@@ -12,6 +13,9 @@ use crate::step::at_step;
 
 /// Points of an outline that are compared.
 const POINTS: u32 = 240;
+/// Sections of a surface in space of which points are compared, and points of each.
+const SECTIONS: u32 = 80;
+const AROUND: u32 = 6;
 /// Distance along the body over its thickness from which on two points are no neighbours.
 const APART: f64 = 3.0;
 /// Gap over the thickness from which on a body is told to be near itself where there is no contact.
@@ -20,14 +24,14 @@ const NEAR: f64 = 0.5;
 /// 1, the ends of a half circle 2 / pi.
 const FOLDED: f64 = 0.5;
 
-/// A point of an outline.
+/// A point of an outline, or of a surface.
 struct OnOutline {
     /// From the head along the straight body (m).
     along: f64,
     /// From the axis of the straight body (m).
     from_axis: f64,
     /// Where it is (m).
-    place: Point<2>,
+    place: Vector3<f64>,
 }
 
 impl<const D: usize> Run<'_, D> {
@@ -49,12 +53,12 @@ impl<const D: usize> Run<'_, D> {
             let Some([one, other]) = nearest(&points, APART * thickness, limit) else { continue };
             let middle = (one.place + other.place) * 0.5;
             let pose = &state.poses[body];
-            let place = pose.center + pose.to_world(&Vector3::new(middle.x, middle.y, 0.0));
+            let place = pose.center + pose.to_world(&middle);
             let (name, gap) = (rigid.name.clone(), (one.place - other.place).norm());
             let meeting = Meeting {
                 body: name,
                 along: [one.along, other.along],
-                place: [place.x, place.y],
+                place: place.as_slice()[..D].to_vec(),
                 gap,
             };
             if law.is_some() {
@@ -71,8 +75,11 @@ impl<const D: usize> Run<'_, D> {
     }
 }
 
-/// Points of the outline; none of one without coordinates.
+/// Points of the outline or the surface; none of one without coordinates.
 fn points(deformed: &DeformedOutline) -> Vec<OnOutline> {
+    if let Some(end) = deformed.end_along() {
+        return on_surface(deformed, end);
+    }
     let Some(period) = deformed.period().filter(|_| deformed.follows_coordinates()) else {
         return Vec::new();
     };
@@ -80,10 +87,27 @@ fn points(deformed: &DeformedOutline) -> Vec<OnOutline> {
     let point = |nth: u32| {
         let parameter = period * f64::from(nth) / f64::from(POINTS);
         let rest = deformed.rest_place(parameter)?;
-        let (along, place) = (head - rest.x, deformed.position(parameter));
+        let (along, place) = (head - rest.x, deformed.position(parameter).push(0.0));
         Some(OnOutline { along, from_axis: rest.y.abs(), place })
     };
     (0..POINTS).filter_map(point).collect()
+}
+
+/// Points of a surface in space whose parameter ends at the tail.
+fn on_surface(deformed: &DeformedOutline, end: f64) -> Vec<OnOutline> {
+    let rest = |at: MaterialPoint| deformed.rest_place_in_space(at);
+    let head = rest(MaterialPoint { along: 0.0, around: 0.0 }).map_or(0.0, |head| head.x);
+    let point = |nth: u32| {
+        let section = f64::from(nth / AROUND) + 0.5;
+        let at = MaterialPoint {
+            along: end * section / f64::from(SECTIONS),
+            around: TAU * f64::from(nth % AROUND) / f64::from(AROUND),
+        };
+        let rest = rest(at)?;
+        let place = deformed.place(at);
+        Some(OnOutline { along: head - rest.x, from_axis: rest.y.hypot(rest.z), place })
+    };
+    (0..SECTIONS * AROUND).filter_map(point).collect()
 }
 
 /// Of the body where it is thickest (m).
@@ -117,7 +141,7 @@ mod tests {
             let point = |nth: u32| {
                 let along = f64::from(nth) / 100.0;
                 let angle = turned * along;
-                let place = Point::<2>::new(angle.cos(), angle.sin());
+                let place = Vector3::new(angle.cos(), angle.sin(), 0.0);
                 OnOutline { along, from_axis: 0.0, place }
             };
             (0..=100).map(point).collect()

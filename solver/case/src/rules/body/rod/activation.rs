@@ -10,7 +10,8 @@ const ROUNDING: f64 = 1e-9;
 
 /// Numbers of an activation.
 pub fn check(findings: &mut Findings<'_>, key: &str, active: &Activation, body: Slender) {
-    if active.curvature.is_some() == active.moment.is_some() {
+    let bends = active.curvature.is_some() || active.curvature_y.is_some();
+    if bends == (active.moment.is_some() || active.moment_y.is_some()) {
         findings.error(
             key,
             "an activation is either a `curvature` or a `moment`".to_owned(),
@@ -20,15 +21,22 @@ pub fn check(findings: &mut Findings<'_>, key: &str, active: &Activation, body: 
     if !active.envelope.is_empty() {
         rises_along(findings, &format!("{key}.envelope"), &active.envelope, body);
     }
-    for (name, given) in [("curvature", &active.curvature), ("moment", &active.moment)] {
+    for (name, given) in [
+        ("curvature", &active.curvature),
+        ("moment", &active.moment),
+        ("curvature_y", &active.curvature_y),
+        ("moment_y", &active.moment_y),
+    ] {
         let Some(given) = given else { continue };
         stroke(findings, &format!("{key}.{name}"), given);
         if let Some(speed) = active.wave_speed {
             is_known_along(findings, key, name, given, body.length / speed);
         }
     }
-    if let Some(curvature) = &active.curvature {
-        sharpness(findings, &format!("{key}.curvature"), active, curvature, body);
+    for (name, given) in [("curvature", &active.curvature), ("curvature_y", &active.curvature_y)] {
+        if let Some(curvature) = given {
+            sharpness(findings, &format!("{key}.{name}"), active, curvature, body);
+        }
     }
 }
 

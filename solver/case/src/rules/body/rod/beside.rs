@@ -75,11 +75,11 @@ fn scheme(findings: &mut Findings<'_>, key: &str, body: &Body) {
 /// What cannot be in a case with rods yet.
 fn others(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let (case, name) = (findings.case(), &body.name);
-    if case.geometry != Geometry::Planar {
+    if case.geometry == Geometry::Spatial && case.contact.is_some() {
         findings.error(
-            &format!("{key}.rod"),
-            format!("\"{name}\" is a rod, and rods are in planar cases only yet"),
-            "write geometry = \"planar\", or leave `rod` out",
+            "contact",
+            format!("\"{name}\" is a rod, and rods in space have no contact yet"),
+            "leave [contact] out, or take geometry = \"planar\"",
         );
     }
     if !findings.model().joints.is_empty() {

@@ -2,10 +2,9 @@
 
 use crate::rules::Findings;
 use crate::rules::body::joints::stroke as numbers_of_stroke;
-use crate::{BentByLoad, Body, EndLoadSpec, Hold, LoadedEnd, RodEnd, bent_by_loads, significant};
-
-/// Components of a force in the plane.
-const COMPONENTS: usize = 2;
+use crate::{
+    BentByLoad, Body, EndLoadSpec, Geometry, Hold, LoadedEnd, RodEnd, bent_by_loads, significant,
+};
 
 /// Loads at the ends of a rod.
 pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
@@ -44,20 +43,21 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
 
 fn numbers(findings: &mut Findings<'_>, key: &str, load: &EndLoadSpec) {
     let EndLoadSpec { force, moment } = load;
+    let is_in_space = findings.case().geometry == Geometry::Spatial;
+    let (n, place, axes) =
+        if is_in_space { (3, "in space", "x, y and z") } else { (2, "in the plane", "x and y") };
     if load.strokes().next().is_none() {
         findings.error(
             key,
             "there is neither a `force` nor a `moment`".to_owned(),
             "write force = [{ constant = ... }, { constant = ... }] (N; N/m planar) or moment.constant = ... (N m; N planar)",
         );
-    } else if !force.is_empty() && force.len() != COMPONENTS {
+    } else if !force.is_empty() && force.len() != n {
+        let component = vec!["{ constant = ... }"; n].join(", ");
         findings.error(
             &format!("{key}.force"),
-            format!(
-                "a force in the plane has {COMPONENTS} components, and here are {}",
-                force.len()
-            ),
-            "write force = [{ constant = ... }, { constant = ... }], along x and y",
+            format!("a force {place} has {n} components, and here are {}", force.len()),
+            &format!("write force = [{component}], along {axes}"),
         );
     }
     for (axis, stroke) in force.iter().enumerate() {

@@ -22,11 +22,12 @@ pub struct EndLoads {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct EndLoadSpec {
-    /// Force along x and y (N; N/m planar), whatever way the end is turned.
+    /// Force along x and y, and in space z (N; N/m planar), whatever way the end is turned.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub force: Vec<Stroke>,
-    /// Moment (N m; N planar), positive where it turns the end counter-clockwise.
+    /// Moment (N), positive where it turns the end counter-clockwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
     pub moment: Option<Stroke>,
 }
 

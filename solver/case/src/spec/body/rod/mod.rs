@@ -25,6 +25,11 @@ pub struct RodSpec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub young: Option<f64>,
+    /// Stiffness in twist (N m2, spatial); that of a material that keeps its volume if absent, two thirds of `bending` of round
+    /// sections.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
+    pub twisting: Option<AlongBody>,
     /// Tension over stretch (N; N/m planar); 1e7 times bending stiffness over squared length if absent, which keeps the
     /// length, at most 1e9 times the drag of what moves by that length in a step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -55,6 +60,10 @@ pub enum RestShape {
     Curvature(f64),
     /// [distance from the head (m), curvature (1/m)], joined by straight lines.
     Table(Vec<[f64; 2]>),
+    /// Rates (1/m, spatial) at which sections turn from head to tail about the x, y and z axes of the straight body, which they carry along:
+    /// twist, and bending about y and z. All of them make a helix.
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
+    Turning([f64; 3]),
 }
 
 /// A positive number, or one that changes along the body.
@@ -75,6 +84,7 @@ pub enum AlongBody {
 pub struct Attached {
     /// Name of the body it is attached to, as it is at the start; the laboratory if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
     pub to: Option<String>,
     /// What is given of it.
     pub hold: Hold,
@@ -105,6 +115,14 @@ pub struct Activation {
     /// Moment (N m; N planar) that bends the body counter-clockwise from head to tail.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moment: Option<Stroke>,
+    /// The same curvature about the body's y (1/m, spatial), beside `curvature`, which is about z.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
+    pub curvature_y: Option<Stroke>,
+    /// The same moment about the body's y (N m, spatial), beside `moment`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["spatial"])))]
+    pub moment_y: Option<Stroke>,
     /// Speed of the wave from head to tail (m/s), negative from tail to head; at once everywhere if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<crate::spec::number::NonZero>"))]
@@ -119,11 +137,12 @@ fn elements() -> usize {
 }
 
 impl RestShape {
-    /// The curvature at a distance from the head (m): 1/m.
+    /// The curvature about z at a distance from the head (m): 1/m.
     #[must_use]
     pub fn at(&self, along: f64) -> f64 {
         let rows = match self {
             Self::Curvature(curvature) => return *curvature,
+            Self::Turning([_, _, about_z]) => return *about_z,
             Self::Table(rows) => rows,
         };
         let next = rows.partition_point(|row| row[0] <= along);
@@ -141,6 +160,7 @@ impl RestShape {
     pub fn sharpest(&self) -> f64 {
         match self {
             Self::Curvature(curvature) => curvature.abs(),
+            Self::Turning([_, about_y, about_z]) => about_y.hypot(*about_z),
             Self::Table(rows) => rows.iter().map(|row| row[1].abs()).fold(0.0, f64::max),
         }
     }
@@ -150,7 +170,12 @@ impl Activation {
     /// The time after which it begins again (s), if it does.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
-        self.curvature.as_ref().or(self.moment.as_ref()).and_then(Stroke::period)
+        self.strokes().find_map(Stroke::period)
+    }
+
+    /// All that is given in time.
+    pub fn strokes(&self) -> impl Iterator<Item = &Stroke> {
+        [&self.curvature, &self.moment, &self.curvature_y, &self.moment_y].into_iter().flatten()
     }
 }
 
