@@ -11,6 +11,7 @@ mod mirror;
 mod periodic;
 mod reciprocity;
 mod remesh;
+mod rods;
 mod rotation;
 mod scene;
 mod walks;
