@@ -43,7 +43,9 @@ fn step_size_underflow<const D: usize>(
     }
     // Steps of any size fail where a load bends a rod too sharply, whatever is near
     let mut bent = run.model.bodies.iter().flat_map(|body| {
-        let all = bent_by_loads(body).into_iter().filter(BentByLoad::is_too_sharp);
+        let all = bent_by_loads(run.model.case.geometry, body)
+            .into_iter()
+            .filter(BentByLoad::is_too_sharp);
         all.map(|one| (&body.name, one))
     });
     if let Some((name, BentByLoad { end, by, curvature, half_width })) = bent.next() {

@@ -1,6 +1,8 @@
 //! `BentByLoad`: how sharply the loads at its ends bend a rod.
 
-use crate::{AlongBody, Body, Hold, LoadedEnd, RodEnd, Stroke};
+use std::f64::consts::PI;
+
+use crate::{AlongBody, Body, Geometry, Hold, LoadedEnd, RodEnd, Stroke};
 
 /// How sharply a load at an end bends a rod.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +32,7 @@ impl BentByLoad {
 /// at that end, by a force at the tip at a head that is clamped. There the curvature k of an elastica of stiffness B
 /// that a force F bends is F L / B at most, and B k^2 / 2 = F (1 - cos) is F at most for a force across it.
 #[must_use]
-pub fn bent_by_loads(body: &Body) -> Vec<BentByLoad> {
+pub fn bent_by_loads(geometry: Geometry, body: &Body) -> Vec<BentByLoad> {
     let (Some(rod), Some(profile)) = (&body.rod, body.shape.profile()) else {
         return Vec::new();
     };
@@ -38,8 +40,14 @@ pub fn bent_by_loads(body: &Body) -> Vec<BentByLoad> {
     let stiffness = match (&rod.bending, rod.young) {
         (Some(AlongBody::Constant(value)), _) => *value,
         (Some(AlongBody::Table(rows)), _) => rows.iter().map(|row| row[1]).fold(0.0, f64::max),
-        // Of a strip of unit width
-        (None, young) => young.unwrap_or_default() * half_width.powi(3) * 2.0 / 3.0,
+        (None, young) => {
+            // Of a strip of unit width, and of a round section
+            let second_moment = match geometry {
+                Geometry::Spatial => PI / 4.0 * half_width.powi(4),
+                Geometry::Planar | Geometry::Axisymmetric => 2.0 / 3.0 * half_width.powi(3),
+            };
+            young.unwrap_or_default() * second_moment
+        }
     };
     let largest = |stroke: &Stroke| stroke.range().map(f64::abs).into_iter().fold(0.0, f64::max);
     let is_clamped = body.attached.as_ref().is_some_and(|attached| attached.hold != Hold::Hinged);

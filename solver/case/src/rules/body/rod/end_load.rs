@@ -24,7 +24,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
         }
     }
     for BentByLoad { end, by, curvature, half_width } in
-        bent_by_loads(body).into_iter().filter(BentByLoad::is_too_sharp)
+        bent_by_loads(findings.case().geometry, body).into_iter().filter(BentByLoad::is_too_sharp)
     {
         findings.warning(
             &format!("{key}.{}.{by}", end.name()),

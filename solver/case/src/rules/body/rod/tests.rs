@@ -167,9 +167,8 @@ fn what_makes_no_rod_is_refused_at_its_key() {
 
 #[test]
 fn loads_that_bend_a_rod_too_sharply_are_warned_about() {
-    let force = |force: f64| {
-        format!("load.tip.force = [{{ constant = 0.0 }}, {{ constant = {force} }}]")
-    };
+    let force =
+        |force: f64| format!("load.tip.force = [{{ constant = 0.0 }}, {{ constant = {force} }}]");
     let moment = |moment: f64| format!("load.tip.moment.constant = {moment}");
     for (load, hold, key) in [
         (moment(-90.0), "", Some("moment")),
@@ -178,10 +177,8 @@ fn loads_that_bend_a_rod_too_sharply_are_warned_about() {
         (force(1.0), "\nattached.hold = 'clamped'", None),
         (force(900.0), "\nattached.hold = 'hinged'", None),
     ] {
-        let found = problems(
-            &fish(&format!("rod = {{ bending = 1.0, {load} }}{hold}")),
-            Severity::Warning,
-        );
+        let found =
+            problems(&fish(&format!("rod = {{ bending = 1.0, {load} }}{hold}")), Severity::Warning);
         let wanted = key.map(|key| format!("body.1.rod.load.tip.{key}"));
         let own: Vec<String> = found.into_iter().filter(|key| key.contains("load")).collect();
         assert_eq!(own, Vec::from_iter(wanted), "{load}{hold}");
