@@ -90,7 +90,7 @@ where
     Dimension<D>: CaseMesh<D>,
 {
     fn new(file: &CaseFile) -> Result<Self, GradientError> {
-        Ok(Self { mesh: BaseFlow::<D>::mesh_and_system(file)?.0 })
+        Ok(Self { mesh: BaseFlow::<D>::prepared(file)?.mesh })
     }
 
     /// The flow of a case: on the mesh whose nodes have moved, or on one of its own where its cells are not fit any more.

@@ -38,6 +38,14 @@ pub(super) struct BaseFlow<const D: usize> {
     sizes: Vec<f64>,
 }
 
+/// What a flow is solved with.
+pub(super) struct PreparedFlow<const D: usize> {
+    /// The mesh, for all numbers.
+    pub mesh: Rc<MeshOfBodies<D>>,
+    /// The system on it.
+    pub work: Workspace<D>,
+}
+
 /// Largest residual of a flow relative to that at rest.
 const TOLERANCE: f64 = 1e-11;
 
@@ -59,15 +67,13 @@ where
     }
 
     /// The mesh of a case, and the system on it.
-    pub fn mesh_and_system(
-        file: &CaseFile,
-    ) -> Result<(Rc<MeshOfBodies<D>>, Workspace<D>), GradientError> {
+    pub fn prepared(file: &CaseFile) -> Result<PreparedFlow<D>, GradientError> {
         let simulation = simulation_with::<D>(&file.model, |_| Ok(()))?;
         let (problem, mesh) = (&simulation.problem, &simulation.work.mesh);
         refuse(file, problem)?;
         let shifts = &simulation.state.image_shifts;
         let mesh = Rc::new(MeshOfBodies::new(&file.model, problem, mesh, shifts)?);
-        Ok((mesh, simulation.work))
+        Ok(PreparedFlow { mesh, work: simulation.work })
     }
 
     /// Solves for the flow of a case on a mesh that has followed its bodies.

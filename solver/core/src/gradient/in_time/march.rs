@@ -99,13 +99,17 @@ where
         self.work
     }
 
-    /// The value of a quantity at the end, and its derivatives by the numbers.
-    pub fn value(&self, column: &Column) -> (f64, Vec<f64>) {
+    /// The value of a quantity at the end.
+    pub fn value(&self, column: &Column) -> f64 {
+        self.course.value(column)
+    }
+
+    /// Its derivatives by the numbers.
+    pub fn slopes(&self, column: &Column) -> Vec<f64> {
         let slope = |(sides, [below, above]): (&Sides, &[Course<D>; 2])| {
             (above.value(column) - below.value(column)) / (2.0 * sides.step)
         };
-        let by = self.numbers.iter().zip(&self.beside).map(slope).collect();
-        (self.course.value(column), by)
+        self.numbers.iter().zip(&self.beside).map(slope).collect()
     }
 
     fn all(&mut self) -> impl Iterator<Item = &mut Course<D>> {

@@ -19,7 +19,7 @@ use self::march::{March, Sides};
 pub(super) use self::refusals::refuse_in_time;
 use super::adjoint::{Derivatives, Ends, ends};
 use super::error::GradientError;
-use super::flow::BaseFlow;
+use super::flow::{BaseFlow, PreparedFlow};
 use super::mesh_of_bodies::MeshOfBodies;
 use super::moment::Moment;
 use crate::case::{CaseError, CaseFile, Column, Source, SwimmerQuantity, TimeSettings, Unsteady};
@@ -52,7 +52,7 @@ where
     /// Makes the mesh.
     pub fn new(file: &CaseFile) -> Result<Self, GradientError> {
         refuse_in_time(file)?;
-        let (mesh, work) = BaseFlow::<D>::mesh_and_system(file)?;
+        let PreparedFlow { mesh, work } = BaseFlow::<D>::prepared(file)?;
         Ok(Self { mesh, work: RefCell::new(Some(work)) })
     }
 
@@ -67,9 +67,14 @@ where
             numbers.iter().map(|number| self.sides(file, number)).collect::<Result<_, _>>()?;
         let march = self.march(file, columns, &numbers)?;
         let of = |column: &Column| {
-            let (value, by) = march.value(column);
-            let size = value.abs();
-            Derivatives { of: column.name.clone(), value, size, by, differences: Vec::new() }
+            let value = march.value(column);
+            Derivatives {
+                of: column.name.clone(),
+                value,
+                size: value.abs(),
+                by: march.slopes(column),
+                differences: Vec::new(),
+            }
         };
         let found: Vec<Derivatives> = columns.iter().map(of).collect();
         self.work.replace(march.into_work());
@@ -90,7 +95,7 @@ where
         let mut values = Vec::new();
         for file in &files {
             let march = self.march(file, columns, &[])?;
-            values.push(columns.iter().map(|column| march.value(column).0).collect::<Vec<f64>>());
+            values.push(columns.iter().map(|column| march.value(column)).collect::<Vec<f64>>());
             self.work.replace(march.into_work());
         }
         let pairs = values[0].iter().zip(&values[1]);
@@ -107,7 +112,7 @@ where
         let work = match self.work.take() {
             Some(work) => work,
             // A flow that failed has kept it
-            None => BaseFlow::<D>::mesh_and_system(file)?.1,
+            None => BaseFlow::<D>::prepared(file)?.work,
         };
         let mut march = March::new(&self.mesh, work, file, numbers, needs_powers(columns))?;
         march.run(settings_of(file)?)?;

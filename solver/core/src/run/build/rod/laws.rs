@@ -1,7 +1,10 @@
 //! Numbers along a rod that planar ones and those in space have in common.
 
-use crate::case::{Activation, Body, Case, FlowModel, RestShape, RodSpec, Stroke, TimeSettings};
-use crate::rod::{Along, Field, Varying};
+use crate::case::{
+    Activation, Body, Case, FlowModel, RestShape, RodEnd, RodSpec, Stroke, TimeSettings,
+};
+use crate::rod::{Along, End, Field, Varying};
+use crate::run::RunError;
 
 /// Half width over the largest one below which a body is as stiff as there: ends close in points, which would bend at
 /// no cost.
@@ -84,4 +87,17 @@ fn wave(
         let factor = envelope.at(along);
         Varying { value: factor * value, rate: factor * rate }
     })
+}
+
+/// An end by its key.
+pub fn end(of: RodEnd) -> End {
+    match of {
+        RodEnd::Base => End::Base,
+        RodEnd::Tip => End::Tip,
+    }
+}
+
+/// Why a body is no rod.
+pub fn refused(body: &Body, why: &str) -> RunError {
+    RunError::Unsupported(format!("body `{}`: {why}", body.name))
 }

@@ -7,9 +7,8 @@ mod spatial;
 
 use std::sync::Arc;
 
-use crate::case::{self, Body, Case, Geometry};
+use crate::case::{Body, Case, Geometry};
 use crate::gait::ShapeMotion;
-use crate::rod::End;
 use crate::run::RunError;
 
 pub(super) use self::attach::attach;
@@ -25,17 +24,4 @@ pub fn rod_shape(case: &Case, body: &Body) -> Result<Option<Arc<dyn ShapeMotion>
         Geometry::Planar | Geometry::Axisymmetric => Arc::new(planar::shape(case, body, spec)?),
     };
     Ok(Some(shape))
-}
-
-/// An end by its key.
-fn end(of: case::RodEnd) -> End {
-    match of {
-        case::RodEnd::Base => End::Base,
-        case::RodEnd::Tip => End::Tip,
-    }
-}
-
-/// Why a body is no rod.
-fn refused(body: &Body, why: &str) -> RunError {
-    RunError::Unsupported(format!("body `{}`: {why}", body.name))
 }

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use alewife_mesh::Profile;
 use nalgebra::{Rotation2, Vector2};
 
-use super::laws::{ENDS, density, steady_rest, stiff_enough, with_wave};
-use super::{end, refused};
+use super::laws::{ENDS, density, end, refused, steady_rest, stiff_enough, with_wave};
 use crate::case::{self, AlongBody, Body, Case, EndLoadSpec, Hold, RodSpec};
 use crate::gait::FlexibleShape;
 use crate::rod::{

@@ -8,8 +8,9 @@ use alewife_mesh::Profile;
 use alewife_mesh::spatial::{SectionHeight, SectionPoint};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::laws::{ENDS, density, longest_step, steady_rest, stiff_enough, with_wave};
-use super::{end, refused};
+use super::laws::{
+    ENDS, density, end, longest_step, refused, steady_rest, stiff_enough, with_wave,
+};
 use crate::case::{self, Activation, AlongBody, Body, Case, EndLoadSpec, Hold, RodSpec, Stroke};
 use crate::gait::FlexibleSurface;
 use crate::rod::{
