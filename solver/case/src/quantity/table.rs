@@ -72,7 +72,8 @@ quantities! {
         MagneticForce: Vector, "magnetic_force", "N (N/m)", [Moment, FieldGradient],
             "Force grad(m . B) of the magnetic field; not in `force`";
         MagneticLag: Scalar, "magnetic_lag", "rad", [Moment],
-            "Angle from the magnetic moment to the field, counter-clockwise, within half a turn, in space from 0              to pi; NaN while there is no field";
+            "Angle from the magnetic moment to the field, counter-clockwise, within half a turn, in space from 0 \
+             to pi; NaN while there is no field";
         MagneticPower: Scalar, "magnetic_power", "W (W/m)", [Moment],
             "Work of the magnetic field on the body";
         ElasticEnergy: Scalar, "elastic_energy", "J (J/m)", [Rod],

@@ -95,7 +95,8 @@ fn of_another_version(version: u32) -> String {
         format!("an older alewife than this one, {this}, wrote it and reads it")
     };
     format!(
-        "this is a state of version {version}, and version {STATE_VERSION} is read here: {which};          `provenance.json` of its run has the one that did (`alewife`, `git`)"
+        "this is a state of version {version}, and version {STATE_VERSION} is read here: {which}; \
+         `provenance.json` of its run has the one that did (`alewife`, `git`)"
     )
 }
 
