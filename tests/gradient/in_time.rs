@@ -148,6 +148,18 @@ fn what_has_no_gradient_in_time_is_refused_with_what_has_one() {
     let short = SPHERES.replace("end = 1.0", "end = 0.5");
     let found = refusal(&short, &["swimmer.cycle.x"], &ok);
     assert!(found.contains("has no value at the end") && found.contains("case.toml:8"), "{found}");
+    // Kinks at other times, and cycles that are not whole on one side
+    let arm = "swimmer.0.kind.linked-spheres.arms";
+    let key = format!("{arm}.1.legs.knots.1.0");
+    let found = refusal(SPHERES, &["swimmer.cycle.x"], &[&key]);
+    assert!(found.contains("rate of a stroke jumps") && found.contains("case.toml:17"), "{found}");
+    let smooth = SPHERES.replace(
+        "legs = {",
+        "sine = { mean = 6.0, amplitude = 1.0, period = 1.0, phase = 0.3 }\n#",
+    );
+    let key = format!("{arm}.0.sine.period");
+    let found = refusal(&smooth, &["swimmer.cycle.x"], &[&key]);
+    assert!(found.contains("a little more than a period"), "{found}");
     // Bodies that go far leave a mesh whose cells they tear
     let far = PAIR.replace("end = 1.5", "end = 60.0");
     let found = refusal(&far, &["one.x"], &ok);

@@ -58,16 +58,15 @@ fn a_cantilever_rests_on_a_wall_with_the_reaction_of_a_propped_beam() {
     let contact = "range = 0.004, stiffness = 1000.0";
     let model = boxed(fluid, -0.03, "step = 0.1, end = 2.4", contact, &rod);
     let profile = model.bodies[0].shape.profile().expect("it is slender");
-    let middles = (0..PIECES).map(|piece| (f64::from(piece) + 0.5) / f64::from(PIECES));
+    let length = profile.length();
+    let middles = (0..PIECES).map(|piece| length * (f64::from(piece) + 0.5) / f64::from(PIECES));
     // The force acts on the pieces by their masses
     let (mut mass, mut bent_by_weight) = (0.0, 0.0);
     for s in middles {
         let half_width = profile.find(s).half_width;
         mass += half_width;
-        bent_by_weight += half_width * s * s * (3.0 - s) / 6.0;
+        bent_by_weight += half_width * s * s * (3.0 * length - s) / 6.0;
     }
-    let length = profile.length();
-    bent_by_weight *= length.powi(3);
     let summary = run(&model);
     let value = |what: &str| last(&summary, &format!("rod.{what}"));
     let reaction = value("contact_force.y");

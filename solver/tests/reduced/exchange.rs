@@ -164,6 +164,22 @@ fn a_written_model_of_mujoco_becomes_a_case_that_runs() {
     assert!(end > 1e-4 && end < 0.1 * 5_f64.to_radians(), "{end}");
 }
 
+/// A joint whose coordinate is 10 degrees where the file has it: spring and servo pull by 0.1 (5 - 10) - 2 10 degrees there, in
+/// place of 0.1 5.
+#[test]
+fn springs_and_targets_count_from_where_a_joint_does() {
+    let end = |text: &str| {
+        let series = simulate(&imported(text, &["time.unsteady.end=0.003"]).model).unwrap();
+        *series.column("tail-1.joint.angle").unwrap().last().unwrap()
+    };
+    // Its neighbour is left to itself
+    let alone = WRITTEN.replace("axis=\"0 0 1\" ref=\"10\"", "axis=\"0 0 1\" stiffness=\"0\"");
+    let shifted = alone.replace("springref=\"5\"", "springref=\"5\" ref=\"10\"");
+    // The way is proportional to the load so soon, but for the drag
+    let ratio = end(&shifted) / end(&alone);
+    assert!((ratio / -41.0 - 1.0).abs() < 0.02, "{ratio}");
+}
+
 #[test]
 fn what_no_case_has_is_refused_by_its_line() {
     let with = |from: &str, to: &str| {

@@ -95,7 +95,7 @@ quantities! {
              `internal_dissipation` and the growth of elastic and kinetic energy";
         Tip: Vector, "tip", "m", [Rod], "End of the midline at the tail, in the laboratory";
         Curvature: Scalar, "curvature", "1/m", [Rod],
-            "Curvature of the midline where it is largest in size, positive where the body turns \
+            "Curvature of the midline where it is largest in size at the middles of its elements, positive where the body turns \
              counter-clockwise from head to tail; in space its size";
     }
 }

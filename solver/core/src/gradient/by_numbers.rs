@@ -139,7 +139,7 @@ where
         let numbers: Vec<Changed<'_>> = cases
             .iter()
             .zip(numbered.sizes)
-            .map(|(case, size)| Changed { case, step: STEP * size })
+            .map(|(case, size)| Changed { key: "optimisation", case, step: STEP * size })
             .collect();
         self.derivatives(&file, &columns, &numbers)
     }

@@ -2,7 +2,7 @@
 
 use super::error::GradientError;
 use crate::body::{RigidVector, Twist, Wrench};
-use crate::case::{Case, Column, Model, differentiable_columns, nearest};
+use crate::case::{Case, Column, Model, TimeSettings, differentiable_columns, nearest};
 use crate::coupling::{BodyLoads, LoadWeights};
 use crate::run::{BodiesInFlow, steady_value};
 
@@ -17,8 +17,12 @@ pub(super) fn objectives(model: &Model, names: &[String]) -> Result<Vec<Column>,
             GradientError::unknown(
                 format!("`{name}` is no quantity whose gradient is known"),
                 format!(
-                    "{}gradients are those of loads, powers and velocities of bodies: {}",
+                    "{}gradients are those of {}: {}",
                     meant.unwrap_or_default(),
+                    match model.case.time {
+                        TimeSettings::Steady(_) => "loads, powers and velocities of bodies",
+                        TimeSettings::Unsteady(_) => "what a run ends with",
+                    },
                     names.join(", ")
                 ),
             )

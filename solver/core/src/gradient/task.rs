@@ -145,12 +145,12 @@ where
     let numbers: Vec<Changed<'_>> = case_of
         .iter()
         .zip(parameters)
-        .map(|(case, parameter)| Changed { case, step: parameter.step })
+        .map(|(case, parameter)| Changed { key: &parameter.key, case, step: parameter.step })
         .collect();
     let mut found = motions.derivatives(file, columns, &numbers)?;
     if task.checks {
         for (case, parameter) in case_of.iter().zip(&longer) {
-            let number = Changed { case, step: parameter.step };
+            let number = Changed { key: &parameter.key, case, step: parameter.step };
             let by_number = motions.differences(file, columns, &number)?;
             for (derivatives, difference) in found.iter_mut().zip(by_number) {
                 derivatives.differences.push(difference);

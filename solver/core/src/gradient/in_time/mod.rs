@@ -23,11 +23,14 @@ use super::flow::{BaseFlow, PreparedFlow};
 use super::mesh_of_bodies::MeshOfBodies;
 use super::moment::Moment;
 use crate::case::{CaseError, CaseFile, Column, Source, SwimmerQuantity, TimeSettings, Unsteady};
+use crate::coupling::Problem;
 use crate::run::{CaseMesh, Dimension};
 use crate::step::Workspace;
 
 /// A number of a case: the case with it larger by so much, and a small step of it.
 pub(super) struct Changed<'a> {
+    /// Its key.
+    pub key: &'a str,
     /// The case.
     pub case: &'a dyn Fn(f64) -> Result<CaseFile, CaseError>,
     /// The step.
@@ -63,9 +66,9 @@ where
         columns: &[Column],
         numbers: &[Changed<'_>],
     ) -> Result<Vec<Derivatives>, GradientError> {
-        let numbers: Vec<Sides> =
+        let sides: Vec<Sides> =
             numbers.iter().map(|number| self.sides(file, number)).collect::<Result<_, _>>()?;
-        let march = self.march(file, columns, &numbers)?;
+        let march = self.march(file, columns, &sides)?;
         let of = |column: &Column| {
             let value = march.value(column);
             Derivatives {
@@ -78,10 +81,16 @@ where
         };
         let found: Vec<Derivatives> = columns.iter().map(of).collect();
         self.work.replace(march.into_work());
-        match found.iter().find(|found| !found.value.is_finite()) {
-            Some(found) => Err(without_value(file, &found.of)),
-            None => Ok(found),
+        for of in &found {
+            if !of.value.is_finite() {
+                return Err(without_value(file, &of.of));
+            }
+            let pairs = numbers.iter().zip(&of.by);
+            if let Some((number, _)) = pairs.into_iter().find(|(_, by)| !by.is_finite()) {
+                return Err(without_slope(file, &of.of, number.key));
+            }
         }
+        Ok(found)
     }
 
     /// Central differences of quantities between complete motions of the case at both sides of a number.
@@ -123,7 +132,11 @@ where
     fn sides(&self, file: &CaseFile, number: &Changed<'_>) -> Result<Sides, GradientError> {
         let here = self.mesh.point(file.clone(), &Moment::START)?;
         let at = |change: f64| self.mesh.point((number.case)(change)?, &Moment::START);
-        let Ends { step, .. } = ends(&self.mesh, &here, number.step, &at)?;
+        let Ends { points, step } = ends(&self.mesh, &here, number.step, &at)?;
+        let end = settings_of(file)?.end;
+        if points.iter().any(|point| moves_kinks(&here.problem, &point.problem, end)) {
+            return Err(moved_kink(file, number.key));
+        }
         Ok(Sides { files: [(number.case)(-step)?, (number.case)(step)?], step })
     }
 }
@@ -154,6 +167,42 @@ fn needs_powers(columns: &[Column]) -> bool {
         )
     };
     columns.iter().any(is_of_work)
+}
+
+/// Whether rates jump at other times in a problem than in another one, up to the end of a run (s).
+fn moves_kinks<const D: usize>(here: &Problem<D>, there: &Problem<D>, end: f64) -> bool {
+    let times = |problem: &Problem<D>| -> Vec<f64> {
+        let jumps = problem.rate_discontinuities.as_ref();
+        jumps.map_or_else(Vec::new, |jumps| jumps(0.0, end))
+    };
+    let (here, there) = (times(here), times(there));
+    let is_elsewhere = |(one, other): (&f64, &f64)| (one - other).abs() > SAME * end;
+    here.len() != there.len() || here.iter().zip(&there).any(is_elsewhere)
+}
+
+/// Part of a run by which times that are the same differ by rounding.
+const SAME: f64 = 1e-12;
+
+fn moved_kink(file: &CaseFile, key: &str) -> GradientError {
+    GradientError::refused(
+        file,
+        key,
+        format!(
+            "`{key}` says when the rate of a stroke jumps, and such times have no gradient yet"
+        ),
+        "take values at these times, or a stroke whose rate does not jump: `sine`, or `legs` that are `smooth`",
+    )
+}
+
+fn without_slope(file: &CaseFile, name: &str, key: &str) -> GradientError {
+    GradientError::refused(
+        file,
+        "time.unsteady.end",
+        format!(
+            "`{name}` has no derivative by `{key}` at the end of the run: on one side of its value the cycle is not whole"
+        ),
+        "let the run go on for a little more than a period",
+    )
 }
 
 fn without_value(file: &CaseFile, name: &str) -> GradientError {

@@ -82,7 +82,10 @@ fn joint_of(node: Node<'_, '_>, name: &str, bodies: &Bodies<'_, '_, '_>) -> Read
         Some(joint) => Ok(*joint),
         None => {
             let names: Vec<&str> = bodies.joints.keys().map(String::as_str).collect();
-            let help = format!("hinges and sliders: {}", names.join(", "));
+            let help = match names.len() {
+                0 => "no body has a hinge or a slide".to_owned(),
+                _ => format!("hinges and sliders: {}", names.join(", ")),
+            };
             refuse(node, format!("there is no joint \"{name}\""), help)
         }
     }

@@ -10,7 +10,9 @@ use super::drives::{Drives, Key, key};
 use super::joined::{Found, Joined, Raw, Whereabouts, joined, length_at_zero};
 use super::source::{Read, Remark, children, exactly, refuse, remark};
 use super::turn::Angles;
-use crate::reduced::exchange::robot::{Fluid, JointOf, Motor, Robot, RobotSite, RobotTendon};
+use crate::reduced::exchange::robot::{
+    Fluid, JointOf, Motor, MotorLaw, Robot, RobotSite, RobotTendon,
+};
 
 /// Sections of a file that say nothing of a motion.
 const SILENT: [&str; 9] =
@@ -238,8 +240,14 @@ fn whole(
         let motor = motor.as_ref()?;
         let joint = JointOf { body: places[motor.joint.body].body?, ..motor.joint };
         let told = start.controls.as_ref().map_or(0.0, |all| all[nth]);
+        // Targets count as the joint's coordinate does in the file
+        let from = match motor.law {
+            MotorLaw::Place { .. } => raws[motor.joint.body].joints[motor.joint.nth].from,
+            MotorLaw::Effort | MotorLaw::Rate { .. } => 0.0,
+        };
+        let limits = motor.limits.map(|range| range.map(|end| end - from));
         // Until here it is what a control is multiplied by
-        Some(Motor { joint, control: told * motor.control, ..motor.clone() })
+        Some(Motor { joint, control: told * motor.control - from, limits, ..motor.clone() })
     });
     let motors: Vec<Motor> = motors.collect();
     let tendons = drives.tendons.iter().map(|one| {
