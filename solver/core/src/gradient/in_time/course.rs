@@ -132,28 +132,23 @@ impl<const D: usize> Course<D> {
 
     fn of_swimmer(&self, swimmer: usize, quantity: SwimmerQuantity, column: &Column) -> f64 {
         let group = &self.problem.groups[swimmer];
-        let of_cycle = |value: fn(&CycleMeans) -> f64| {
-            let cycles = &self.histories[swimmer].cycles;
-            group.period.map_or(f64::NAN, |period| value(&cycles.means(period, group.resistance)))
-        };
-        let displacement = || -> Option<Vector3<f64>> {
-            let cycles = &self.histories[swimmer].cycles;
-            Some(cycles.means(group.period?, group.resistance).displacement)
-        };
+        let cycles = &self.histories[swimmer].cycles;
+        let means = group.period.map(|period| cycles.means(period, group.resistance));
+        let of_cycle = |value: &dyn Fn(&CycleMeans) -> f64| means.as_ref().map_or(f64::NAN, value);
         match quantity {
             SwimmerQuantity::Position => {
                 along(&center_of(&self.problem, group, &self.poses), column.component)
             }
             SwimmerQuantity::Angle => self.poses[group.bodies[0]].angle(),
             SwimmerQuantity::CycleDisplacement => {
-                displacement().map_or(f64::NAN, |way| along(&way, column.component))
+                of_cycle(&|means| along(&means.displacement, column.component))
             }
-            SwimmerQuantity::CycleAngle => of_cycle(|means| means.angle),
-            SwimmerQuantity::CycleSpeed => of_cycle(|means| means.speed),
-            SwimmerQuantity::CyclePower => of_cycle(|means| means.power),
-            SwimmerQuantity::CycleCostOfTransport => of_cycle(|means| means.cost_of_transport),
+            SwimmerQuantity::CycleAngle => of_cycle(&|means| means.angle),
+            SwimmerQuantity::CycleSpeed => of_cycle(&|means| means.speed),
+            SwimmerQuantity::CyclePower => of_cycle(&|means| means.power),
+            SwimmerQuantity::CycleCostOfTransport => of_cycle(&|means| means.cost_of_transport),
             SwimmerQuantity::CycleLighthillEfficiency => {
-                of_cycle(|means| means.lighthill_efficiency)
+                of_cycle(&|means| means.lighthill_efficiency)
             }
             _ => f64::NAN,
         }
