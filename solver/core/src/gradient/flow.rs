@@ -2,19 +2,22 @@
 
 use std::rc::Rc;
 
+use alewife_mesh::Mesh;
+use nalgebra::Vector3;
+
 use super::error::GradientError;
-use super::mesh_of_bodies::MeshOfBodies;
+use super::mesh_of_bodies::{Made, MeshOfBodies};
 use super::moment::Moment;
 use super::objective::Weights;
 use super::point::CasePoint;
 use super::refusals::refuse;
-use crate::case::{CaseFile, Column, Steady};
+use crate::case::{CaseFile, Column, Model, Steady};
 use crate::coupling::{
-    BodyLoads, FluidSystem, LoadDerivatives, ResidualAt, ResidualOnMesh, Solution, SurfaceLoads,
-    load_derivatives,
+    BodyLoads, FluidSystem, LoadDerivatives, Problem, ResidualAt, ResidualOnMesh, Solution,
+    SurfaceLoads, load_derivatives,
 };
 use crate::run::{
-    BodiesInFlow, CaseMesh, Dimension, RunError, by_key, simulation_on, simulation_with,
+    BodiesInFlow, CaseMesh, CellBound, Dimension, RunError, by_key, simulation_on, simulation_with,
     steady_value,
 };
 use crate::step::{
@@ -44,6 +47,8 @@ pub(super) struct PreparedFlow<const D: usize> {
     pub mesh: Rc<MeshOfBodies<D>>,
     /// The system on it.
     pub work: Workspace<D>,
+    /// What other meshes are measured by.
+    pub cell_bound: CellBound,
 }
 
 /// Largest residual of a flow relative to that at rest.
@@ -60,7 +65,7 @@ where
         let (problem, work, shifts) =
             (simulation.problem, simulation.work, simulation.state.image_shifts.clone());
         refuse(file, &problem)?;
-        let mesh = Rc::new(MeshOfBodies::new(model, &problem, &work.mesh, &shifts)?);
+        let mesh = Rc::new(of_the_start(model, &problem, &work.mesh, &shifts)?);
         let mesh_now = work.mesh.clone();
         let point = CasePoint::new(file.clone(), problem, mesh_now, &shifts, &Moment::START)?;
         Self::at(mesh, point, work, columns)
@@ -72,8 +77,8 @@ where
         let (problem, mesh) = (&simulation.problem, &simulation.work.mesh);
         refuse(file, problem)?;
         let shifts = &simulation.state.image_shifts;
-        let mesh = Rc::new(MeshOfBodies::new(&file.model, problem, mesh, shifts)?);
-        Ok(PreparedFlow { mesh, work: simulation.work })
+        let mesh = Rc::new(of_the_start(&file.model, problem, mesh, shifts)?);
+        Ok(PreparedFlow { mesh, work: simulation.work, cell_bound: simulation.cell_bound })
     }
 
     /// Solves for the flow of a case on a mesh that has followed its bodies.
@@ -101,6 +106,20 @@ where
         let sizes = Vec::new();
         Ok(Self { mesh, point, work, columns, solution, residual, free, values, sizes })
     }
+}
+
+/// A mesh that was made for the bodies of a case as it has them.
+fn of_the_start<const D: usize>(
+    model: &Model,
+    problem: &Problem<D>,
+    mesh: &Mesh<D>,
+    shifts: &[Vector3<f64>],
+) -> Result<MeshOfBodies<D>, GradientError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    let poses = Moment::START.poses(problem);
+    MeshOfBodies::new(model, problem, Made { mesh, shifts, poses: &poses })
 }
 
 /// The steady flow of a case on the mesh of a workspace.

@@ -19,7 +19,7 @@ pub use boundary_condition::{
     MeshBoundaryCondition, MotionError, PrescribedDisplacement, mesh_boundary_conditions,
 };
 pub use elliptic::MeshMotion;
-pub use moving_mesh::{GapsAt, MotionSettings, MovingMesh};
+pub use moving_mesh::{DEGENERATE, GapsAt, MotionSettings, MovingMesh};
 pub use present_gaps::PresentGaps;
 pub use remesh::{Fresh, Limits, Reason, needs_remesh};
 pub use replace_mesh::replace_mesh;

@@ -17,7 +17,7 @@ use crate::coupling::{BodyShapes, RestPlaces, RigidBody, coordinate_ranges};
 use crate::state::State;
 
 /// Quality of a cell over the lowest one of the reference mesh below which no flow is solved on it.
-const DEGENERATE: f64 = 0.02;
+pub const DEGENERATE: f64 = 0.02;
 
 /// A mesh with all that moves it, from one remeshing to the next. Positions are seen from the frame.
 #[derive(Debug)]

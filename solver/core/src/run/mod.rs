@@ -30,7 +30,7 @@ pub use case_mesh::{CaseMesh, Dimension, InitialMesh, NearestOnBody, build_mesh}
 pub use error::RunError;
 pub use excess::Excess;
 pub use measure::{BodiesInFlow, steady_value};
-pub use prepare::{simulation_on, simulation_with};
+pub use prepare::{moving_mesh_on, simulation_on, simulation_with};
 pub use reports::{CycleReport, StepErrorReport};
 pub use resume::{Reference, ResumeError, SavedState, VERSION as STATE_VERSION};
 pub use run::RunSummary;
@@ -42,4 +42,4 @@ pub use snapshot::{BodyReport, LastState, Observer, Recorded, Snapshot};
 pub use solve::{Solve, replay, simulate, simulate_from};
 pub use step_control::{Piece, StepControl};
 pub use timed_step::{Effort, TimedStep};
-pub use watch::{Allowed, AllowedBy, CellBound, NotFinite, by_key};
+pub use watch::{Allowed, AllowedBy, AtHand, CellBound, NotFinite, by_key};

@@ -14,6 +14,7 @@ use super::step_control::StepControl;
 use super::watch::CellBound;
 use crate::case::{Case, Model, Scheme, TimeSettings};
 use crate::coupling::{Problem, ShapeError};
+use crate::motion::MovingMesh;
 use crate::state::State;
 use crate::step::Workspace;
 use crate::timing::{Stage, Timing};
@@ -72,6 +73,24 @@ where
     Dimension<D>: CaseMesh<D>,
 {
     at_rest(model, Dimension::<D>::adopt(model, mesh)?, Timing::default(), |_| Ok(()))
+}
+
+/// What moves a mesh of a case from elsewhere, with the bodies as they begin; none where nothing moves it.
+///
+/// # Errors
+/// When the case makes no problem on this mesh.
+pub fn moving_mesh_on<const D: usize>(
+    model: &Model,
+    mesh: Mesh<D>,
+) -> Result<Option<MovingMesh<D>>, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    let InitialMesh { mesh, shifts, make_moving } = Dimension::<D>::adopt(model, mesh)?;
+    let problem = build_problem(model, &mesh)?;
+    let state = State::at_rest(&problem, mesh).with_image_shifts(shifts);
+    let poses = state.in_mesh(&state.poses);
+    model.mesh_moves().then(|| make_moving(model, &problem, &state.mesh, poses)).transpose()
 }
 
 /// A simulation of a case at rest whose problem is changed before it begins.

@@ -59,6 +59,11 @@ impl<const D: usize> Course<D> {
         self.time
     }
 
+    /// Poses of the bodies at the time reached.
+    pub fn poses(&self) -> &[Pose] {
+        &self.poses
+    }
+
     /// Begins a step of a size (s).
     pub fn begin(&mut self, size: f64) {
         self.step = StepMade { size, ..StepMade::default() };

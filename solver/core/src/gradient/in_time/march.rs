@@ -5,9 +5,9 @@ use std::rc::Rc;
 use super::super::adjoint::{Derivatives, Ends, derivatives, ends};
 use super::super::error::GradientError;
 use super::super::flow::BaseFlow;
-use super::super::mesh_of_bodies::MeshOfBodies;
 use super::super::moment::Moment;
 use super::course::{Course, Rates};
+use super::meshes::{MeshSince, Meshes, StepBegin};
 use super::unknowns::Unknowns;
 use crate::body::Pose;
 use crate::case::{CaseFile, Column, Unsteady};
@@ -34,15 +34,13 @@ pub(super) struct Sides {
 /// The bodies of a case, and of the same case at both sides of the values of its numbers, which go where the linearised
 /// flow takes them.
 pub(super) struct March<'a, const D: usize> {
-    mesh: &'a Rc<MeshOfBodies<D>>,
+    meshes: Meshes<'a, D>,
     file: &'a CaseFile,
     numbers: &'a [Sides],
     unknowns: Unknowns,
     course: Course<D>,
     /// Below and above, for each number.
     beside: Vec<[Course<D>; 2]>,
-    /// The system on the mesh, between flows.
-    work: Option<Workspace<D>>,
 }
 
 /// What a flow says at a stage, and how that changes.
@@ -59,14 +57,13 @@ where
 {
     /// Begins where a case has its bodies; `problem` is made of each file.
     pub fn new(
-        mesh: &'a Rc<MeshOfBodies<D>>,
-        work: Workspace<D>,
+        meshes: Meshes<'a, D>,
         file: &'a CaseFile,
         numbers: &'a [Sides],
         with_powers: bool,
     ) -> Result<Self, GradientError> {
         let problem = |file: &CaseFile| -> Result<Problem<D>, GradientError> {
-            Ok(mesh.point(file.clone(), &Moment::START)?.problem)
+            Ok(meshes.now().point(file.clone(), &Moment::START)?.problem)
         };
         let course = Course::new(problem(file)?);
         let mut beside = Vec::new();
@@ -74,7 +71,7 @@ where
             beside.push([Course::new(problem(below)?), Course::new(problem(above)?)]);
         }
         let unknowns = Unknowns::new(course.problem(), with_powers);
-        Ok(Self { mesh, file, numbers, unknowns, course, beside, work: Some(work) })
+        Ok(Self { meshes, file, numbers, unknowns, course, beside })
     }
 
     /// Makes all steps of a run.
@@ -87,16 +84,19 @@ where
             let mut ends = jumps.map_or_else(Vec::new, |jumps| jumps(from + near, target - near));
             ends.push(target);
             for end in ends {
-                self.step(end - self.course.time())?;
+                let time = self.course.time();
+                let begin = StepBegin { step: index + 1, time, poses: self.course.poses() };
+                self.meshes.renew(self.file, &begin)?;
+                self.step(end - time)?;
                 self.all().for_each(|course| course.round_time(end));
             }
         }
         Ok(())
     }
 
-    /// The system on the mesh, for another march.
-    pub fn into_work(self) -> Option<Workspace<D>> {
-        self.work
+    /// The system on the first mesh, for another march, and the meshes made since.
+    pub fn end(self) -> (Option<Workspace<D>>, Vec<MeshSince<D>>) {
+        self.meshes.end()
     }
 
     /// The value of a quantity at the end.
@@ -144,16 +144,17 @@ where
 
     /// The flow of the case at a moment, and what it changes by.
     fn flow(&mut self, moment: &Moment) -> Result<StageFlow, GradientError> {
-        let point = self.mesh.point(self.file.clone(), moment)?;
-        if !self.mesh.is_fit(&point) {
+        let mesh = Rc::clone(self.meshes.now());
+        let point = mesh.point(self.file.clone(), moment)?;
+        if mesh.is_degenerate(&point) {
             return Err(self.too_far(moment.time));
         }
-        let mut work = self.work.take().expect("a flow gives its system back");
+        let mut work = self.meshes.take_work();
         work.mesh.clone_from(&point.mesh);
         work.system.move_to(&point.problem, &point.mesh);
         let columns = self.unknowns.columns();
         let names = vec![String::new(); columns.len()];
-        let mut flow = BaseFlow::at(Rc::clone(self.mesh), point, work, columns)?;
+        let mut flow = BaseFlow::at(Rc::clone(&mesh), point, work, columns)?;
         let (n_numbers, mut found) = (self.numbers.len(), Vec::new());
         let values = flow.values().to_vec();
         if n_numbers > 0 {
@@ -165,13 +166,13 @@ where
             {
                 Some(Sides { files, step }) => {
                     let [below, above] = files.each_ref();
-                    let at = |file: &CaseFile| self.mesh.point(file.clone(), moment);
+                    let at = |file: &CaseFile| mesh.point(file.clone(), moment);
                     Ok(Ends { points: [at(below)?, at(above)?], step: *step })
                 }
                 None => self.ends_by_motion(flow, moment, &poses, nth - n_numbers),
             })?;
         }
-        self.work = Some(flow.into_work());
+        self.meshes.give_back(flow.into_work());
         let by = |nth: usize| found.iter().map(|of: &Derivatives| of.by[nth]).collect();
         let n_motions = if found.is_empty() { 0 } else { self.unknowns.n_motions() };
         Ok(StageFlow {
@@ -191,20 +192,19 @@ where
     ) -> Result<Ends<D>, GradientError> {
         let at = |way: f64| {
             let poses = Some(self.unknowns.displaced(poses, nth, way));
-            self.mesh.point(self.file.clone(), &Moment { poses, ..moment.clone() })
+            flow.mesh.point(self.file.clone(), &Moment { poses, ..moment.clone() })
         };
         let first =
-            if self.unknowns.is_rotation(nth) { TURN } else { WAY * self.mesh.shortest_edge() };
-        ends(self.mesh, &flow.point, first, &at)
+            if self.unknowns.is_rotation(nth) { TURN } else { WAY * flow.mesh.shortest_edge() };
+        ends(&flow.mesh, &flow.point, first, &at)
     }
 
     fn too_far(&self, time: f64) -> GradientError {
         GradientError::refused(
             self.file,
             "time",
-            format!("at t = {time:.6} the bodies have gone too far for the mesh of the start"),
-            "gradients of motions are taken on one mesh, which is not made again: end the run earlier, make strokes \
-             shorter, or give the mesh finer cells between the bodies",
+            format!("at t = {time:.6}, within a step, the bodies have torn a cell of the mesh"),
+            "take shorter steps: meshes are made between them",
         )
     }
 }

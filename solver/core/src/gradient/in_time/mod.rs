@@ -5,10 +5,12 @@
 //! its velocities and powers, each of these has V_q and V_p, so that the bodies of the case with a number larger or smaller by
 //! dp are where V + V_q dq + V_p dp takes them (tangents in time): both are integrated beside those of the case itself, with
 //! their own strokes, joints and averages over cycles, and what they differ by is the derivative. It is that of the discrete
-//! scheme, but for the square of dp. Meshes follow the bodies from the start.
+//! scheme, but for the square of dp. Meshes follow the bodies, and where one is worn another is made, as in runs; what is
+//! displaced by a number or a motion stays on the mesh of the case.
 
 mod course;
 mod march;
+mod meshes;
 mod refusals;
 mod unknowns;
 
@@ -16,6 +18,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use self::march::{March, Sides};
+use self::meshes::{MeshSince, Meshes};
 pub(super) use self::refusals::refuse_in_time;
 use super::adjoint::{Derivatives, Ends, ends};
 use super::error::GradientError;
@@ -24,7 +27,7 @@ use super::mesh_of_bodies::MeshOfBodies;
 use super::moment::Moment;
 use crate::case::{CaseError, CaseFile, Column, Source, SwimmerQuantity, TimeSettings, Unsteady};
 use crate::coupling::Problem;
-use crate::run::{CaseMesh, Dimension};
+use crate::run::{CaseMesh, CellBound, Dimension};
 use crate::step::Workspace;
 
 /// A number of a case: the case with it larger by so much, and a small step of it.
@@ -37,10 +40,13 @@ pub(super) struct Changed<'a> {
     pub step: f64,
 }
 
-/// The motions of a case for one set of its numbers after the other, on the mesh of its start.
+/// The motions of a case for one set of its numbers after the other, which begin on one mesh.
 pub(super) struct Motions<const D: usize> {
     mesh: Rc<MeshOfBodies<D>>,
     work: RefCell<Option<Workspace<D>>>,
+    cell_bound: CellBound,
+    /// The meshes that were made last where derivatives were asked for.
+    made: RefCell<Vec<MeshSince<D>>>,
 }
 
 /// Whether what is asked of a case is asked of a motion: of the end of a run.
@@ -55,8 +61,9 @@ where
     /// Makes the mesh.
     pub fn new(file: &CaseFile) -> Result<Self, GradientError> {
         refuse_in_time(file)?;
-        let PreparedFlow { mesh, work } = BaseFlow::<D>::prepared(file)?;
-        Ok(Self { mesh, work: RefCell::new(Some(work)) })
+        let PreparedFlow { mesh, work, cell_bound } = BaseFlow::<D>::prepared(file)?;
+        let (work, made) = (RefCell::new(Some(work)), RefCell::default());
+        Ok(Self { mesh, work, cell_bound, made })
     }
 
     /// Quantities at the end of the run of a case, and their derivatives by numbers.
@@ -68,7 +75,10 @@ where
     ) -> Result<Vec<Derivatives>, GradientError> {
         let sides: Vec<Sides> =
             numbers.iter().map(|number| self.sides(file, number)).collect::<Result<_, _>>()?;
-        let march = self.march(file, columns, &sides)?;
+        let work = self.work_for(file)?;
+        let meshes = Meshes::new(file, &self.mesh, work, self.cell_bound)?;
+        let mut march = March::new(meshes, file, &sides, needs_powers(columns))?;
+        march.run(settings_of(file)?)?;
         let of = |column: &Column| {
             let value = march.value(column);
             Derivatives {
@@ -80,7 +90,9 @@ where
             }
         };
         let found: Vec<Derivatives> = columns.iter().map(of).collect();
-        self.work.replace(march.into_work());
+        let (work, made) = march.end();
+        self.work.replace(work);
+        self.made.replace(made);
         for of in &found {
             if !of.value.is_finite() {
                 return Err(without_value(file, &of.of));
@@ -93,7 +105,8 @@ where
         Ok(found)
     }
 
-    /// Central differences of quantities between complete motions of the case at both sides of a number.
+    /// Central differences of quantities between complete motions of the case at both sides of a number, through the
+    /// meshes that were made last where derivatives were asked for.
     pub fn differences(
         &self,
         file: &CaseFile,
@@ -102,30 +115,25 @@ where
     ) -> Result<Vec<f64>, GradientError> {
         let Sides { files, step } = self.sides(file, number)?;
         let mut values = Vec::new();
+        let made = self.made.borrow();
         for file in &files {
-            let march = self.march(file, columns, &[])?;
+            let meshes = Meshes::known(&self.mesh, self.work_for(file)?, &made);
+            let mut march = March::new(meshes, file, &[], needs_powers(columns))?;
+            march.run(settings_of(file)?)?;
             values.push(columns.iter().map(|column| march.value(column)).collect::<Vec<f64>>());
-            self.work.replace(march.into_work());
+            self.work.replace(march.end().0);
         }
         let pairs = values[0].iter().zip(&values[1]);
         Ok(pairs.map(|(below, above)| (above - below) / (2.0 * step)).collect())
     }
 
-    /// The motion of a case, at its end.
-    fn march<'a>(
-        &'a self,
-        file: &'a CaseFile,
-        columns: &[Column],
-        numbers: &'a [Sides],
-    ) -> Result<March<'a, D>, GradientError> {
-        let work = match self.work.take() {
-            Some(work) => work,
+    /// The system on the mesh of the start.
+    fn work_for(&self, file: &CaseFile) -> Result<Workspace<D>, GradientError> {
+        match self.work.take() {
+            Some(work) => Ok(work),
             // A flow that failed has kept it
-            None => BaseFlow::<D>::prepared(file)?.work,
-        };
-        let mut march = March::new(&self.mesh, work, file, numbers, needs_powers(columns))?;
-        march.run(settings_of(file)?)?;
-        Ok(march)
+            None => Ok(BaseFlow::<D>::prepared(file)?.work),
+        }
     }
 
     /// The case at both sides of a number, near enough for bodies to be moved little.

@@ -30,7 +30,7 @@ pub struct CellBound {
 
 /// The mesh at hand and how its system is solved.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::run) struct AtHand {
+pub struct AtHand {
     /// Its cells.
     pub n_cells: usize,
     /// Whether iterations solve its system, and not factors.
@@ -92,7 +92,8 @@ impl CellBound {
     }
 
     /// What a mesh may have that takes the place of one.
-    pub(in crate::run) fn allowed<const D: usize>(&self, at_hand: AtHand) -> Allowed {
+    #[must_use]
+    pub fn allowed<const D: usize>(&self, at_hand: AtHand) -> Allowed {
         let first = self.first as f64;
         let by_case = match self.given {
             Some(given) => Allowed { most: given as f64, by: AllowedBy::Case },
@@ -143,7 +144,8 @@ pub(in crate::run) fn nearest_gap<const D: usize>(
 
 impl Allowed {
     /// As meshes are measured by it.
-    pub(in crate::run) fn cells(&self) -> MostCells {
+    #[must_use]
+    pub fn cells(&self) -> MostCells {
         MostCells(self.most)
     }
 }

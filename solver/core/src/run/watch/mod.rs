@@ -14,8 +14,8 @@ mod self_contact;
 mod sound_state;
 mod soundness;
 
-pub use cell_bound::{Allowed, AllowedBy, CellBound};
-pub(super) use cell_bound::{AtHand, nearest_gap};
+pub(super) use cell_bound::nearest_gap;
+pub use cell_bound::{Allowed, AllowedBy, AtHand, CellBound};
 pub(super) use force_agreement::ForceAgreement;
 pub use given_values::by_key;
 pub use not_finite::NotFinite;
