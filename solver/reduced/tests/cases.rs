@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use alewife_case::soft::search::ObjectiveSpec;
+use alewife_case::soft::search::{ObjectiveSpec, Parameter};
 use alewife_case::soft::{SoftFile, check};
 use alewife_reduced::search::Sought as _;
 use alewife_reduced::tier::{
@@ -12,7 +12,7 @@ use alewife_reduced::tier::{
 use tempfile::TempDir;
 
 /// A bar in the plane with fibres along one side, which swims across itself.
-const BAR: &str = r#"
+pub(crate) const BAR: &str = r#"
 title = "a bar"
 geometry = "planar"
 
@@ -73,15 +73,15 @@ scale = 0.01
 "#;
 
 /// A record that fits, with a control that nothing names.
-fn record() -> String {
+pub(crate) fn record() -> String {
     let row = |k: usize| format!("{},{},{}\n", 40 * k, 0.1 * k as f64, -0.05 * k as f64);
     "time (ms),tip x,tip y\n".to_owned() + &(0..14).map(row).collect::<String>()
 }
 
-struct Folder(TempDir);
+pub(crate) struct Folder(TempDir);
 
 impl Folder {
-    fn new(case: &str, record: &str) -> Self {
+    pub(crate) fn new(case: &str, record: &str) -> Self {
         let folder = TempDir::new().expect("there is room");
         fs::write(folder.path().join("case.toml"), case).expect("it is written");
         fs::write(folder.path().join("record.csv"), record).expect("it is written");
@@ -92,7 +92,7 @@ impl Folder {
         self.0.path().join("case.toml")
     }
 
-    fn read(&self, settings: &[&str]) -> SoftFile {
+    pub(crate) fn read(&self, settings: &[&str]) -> SoftFile {
         let settings: Vec<String> = settings.iter().map(|one| (*one).to_owned()).collect();
         SoftFile::read(&self.case().display().to_string(), &settings).expect("it is a soft case")
     }
@@ -114,14 +114,7 @@ fn derivatives_by_every_key_are_those_of_differences() {
         ("thrust", "loads.thrust.bezier.3", 1.0),
     ];
     let file = folder.read(&[]);
-    let parameters = keys.map(|(name, key, scale)| alewife_case::soft::search::Parameter {
-        name: name.to_owned(),
-        keys: vec![key.to_owned()],
-        start: None,
-        bounds: [-1e9, 1e9],
-        scale: Some(scale),
-    });
-    let sought = Sought::new(&file.case, &parameters);
+    let sought = sought(&file, &keys);
     let model = Model::<2>::new(&file).expect("it is a body");
     let optimisation = file.case.optimisation.as_ref().expect("it has one").objective.clone();
     let way_per_work =
@@ -131,8 +124,7 @@ fn derivatives_by_every_key_are_those_of_differences() {
         standing_power: 0.3,
         after: Some(0.13),
     };
-    let recorded = model.recorded.clone().expect("it has a record").displacements;
-    let calibration = Kind::Calibration(model.markers(recorded));
+    let calibration = Kind::Calibration(model.tracks(model.recorded.as_ref().expect("it has one")));
     let objectives = [optimisation, way_per_work, tapered].map(Kind::Optimisation);
     for kind in [calibration].into_iter().chain(objectives) {
         let mut seeker = Seeker { model: model.clone(), sought: sought.clone(), kind };
@@ -148,20 +140,41 @@ fn derivatives_by_every_key_are_those_of_differences() {
             let last = table.last("objective").expect("it is a column");
             assert!((last / -found.objective - 1.0).abs() < 1e-9, "{last} {}", found.objective);
         }
-        let scale = |k: usize| keys[k].2;
-        let largest =
-            (0..keys.len()).map(|k| (found.slopes[k] * scale(k)).abs()).fold(0.0, f64::max);
-        for k in 0..keys.len() {
-            let mut at = |by: f64| {
-                let mut values = start.clone();
-                values[k] += by;
-                seeker.evaluate(&values).expect("it moves").objective
-            };
-            let h = 1e-4 * scale(k);
-            let expected = (at(h) - at(-h)) / (2.0 * h);
-            let apart = (found.slopes[k] - expected).abs() * scale(k) / largest;
-            assert!(apart < 1e-5, "{}: {} {expected}", keys[k].0, found.slopes[k]);
-        }
+        agrees(&mut seeker, &start, &keys, &found.slopes);
+    }
+}
+
+/// Keys as numbers that are sought, with their scales.
+pub(crate) fn sought(file: &SoftFile, keys: &[(&str, &str, f64)]) -> Sought {
+    let parameter = |(name, key, scale): &(&str, &str, f64)| Parameter {
+        name: (*name).to_owned(),
+        keys: vec![(*key).to_owned()],
+        start: None,
+        bounds: [-1e9, 1e9],
+        scale: Some(*scale),
+    };
+    Sought::new(&file.case, &keys.iter().map(parameter).collect::<Vec<_>>())
+}
+
+/// Compares slopes with central differences, relative to the largest of them.
+pub(crate) fn agrees(
+    seeker: &mut Seeker<2>,
+    start: &[f64],
+    keys: &[(&str, &str, f64)],
+    slopes: &[f64],
+) {
+    let scale = |k: usize| keys[k].2;
+    let largest = (0..keys.len()).map(|k| (slopes[k] * scale(k)).abs()).fold(0.0, f64::max);
+    for k in 0..keys.len() {
+        let mut at = |by: f64| {
+            let mut values = start.to_vec();
+            values[k] += by;
+            seeker.evaluate(&values).expect("it moves").objective
+        };
+        let h = 1e-4 * scale(k);
+        let expected = (at(h) - at(-h)) / (2.0 * h);
+        let apart = (slopes[k] - expected).abs() * scale(k) / largest;
+        assert!(apart < 1e-5, "{}: {} {expected}", keys[k].0, slopes[k]);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The soft tier: gradients against differences, cases, searches, and a twin of a recorded swimmer; the reduced tier.
 
+mod angles;
 mod cases;
 mod given;
 mod gradients;

@@ -6,6 +6,7 @@ mod rules;
 pub mod search;
 pub mod solid;
 pub mod spec;
+pub mod stretch;
 
 pub use parameters::{KeyError, ParameterKey};
 pub(crate) use read::is_soft;

@@ -1,7 +1,8 @@
 //! `ParameterKey`: a number of a soft case that gradients are known of, found by its key.
 
-use super::solid::{MaterialSpec, SoftSolid, Stretch};
+use super::solid::{MaterialSpec, SoftSolid};
 use super::spec::{LoadCurve, SoftCase};
+use super::stretch::Stretch;
 
 /// A number that has a derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +17,8 @@ pub enum ParameterKey {
     Constant(usize),
     /// A number of the wave of a set of fibres: mean, amplitude, frequency, phase.
     Wave(usize, usize),
+    /// A number of the pulses of a set of fibres: amplitude, rise, on.
+    Trapezoid(usize, usize),
     /// The stretch of a set of fibres in a frame.
     Frame(usize, usize),
     /// A point of the curve of drag.
@@ -35,10 +38,13 @@ pub struct KeyError {
 
 /// Numbers of a wave.
 const WAVE: [&str; 4] = ["mean", "amplitude", "frequency", "phase"];
+/// Numbers of pulses.
+const TRAPEZOID: [&str; 3] = ["amplitude", "rise", "on"];
 
 const ACCEPTED: &str = "accepted: solid.0.material.young and .poisson, solid.0.part.N.material.young and .poisson, \
                         solid.0.fibre.N.stiffness, solid.0.fibre.N.stretch.constant, .wave.mean, .wave.amplitude, \
-                        .wave.frequency, .wave.phase and .frames, loads.drag.bezier.N, loads.thrust.bezier.N, and \
+                        .wave.frequency, .wave.phase, .trapezoid.amplitude, .trapezoid.rise, .trapezoid.on and \
+                        .frames, loads.drag.bezier.N, loads.thrust.bezier.N, and \
                         the same of a table; N counts from 0";
 
 impl ParameterKey {
@@ -73,6 +79,10 @@ impl ParameterKey {
             ["solid", "0", "fibre", n, "stretch", "wave", of] => {
                 let of = WAVE.iter().position(|name| name == of);
                 number(n).zip(of).map(|(n, of)| vec![Self::Wave(n, of)])
+            }
+            ["solid", "0", "fibre", n, "stretch", "trapezoid", of] => {
+                let of = TRAPEZOID.iter().position(|name| name == of);
+                number(n).zip(of).map(|(n, of)| vec![Self::Trapezoid(n, of)])
             }
             ["solid", "0", "fibre", n, "stretch", "frames"] => {
                 number(n).map(|n| all(case.soft.frames, &|frame| Self::Frame(n, frame)))
@@ -117,6 +127,14 @@ impl ParameterKey {
                     1 => &mut wave.amplitude,
                     2 => &mut wave.frequency,
                     _ => &mut wave.phase,
+                }),
+                _ => None,
+            },
+            Self::Trapezoid(n, of) => match &mut solid.fibre.get_mut(n)?.stretch {
+                Stretch::Trapezoid(pulse) => Some(match of {
+                    0 => &mut pulse.amplitude,
+                    1 => &mut pulse.rise,
+                    _ => &mut pulse.on,
                 }),
                 _ => None,
             },

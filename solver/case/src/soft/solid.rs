@@ -1,11 +1,9 @@
 //! `[[solid]]`: shape, material, fibres and what holds a soft body.
 
-use std::f64::consts::TAU;
-
 use serde::{Deserialize, Serialize};
 
+use super::stretch::Stretch;
 use crate::ShapeSpec;
-use crate::spec::body::stroke::smooth_ramp;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, Positive};
 
@@ -221,73 +219,6 @@ pub struct FibreSpec {
     pub stiffness: f64,
     /// The stretch they are told, 1 at rest.
     pub stretch: Stretch,
-}
-
-/// The stretch that fibres are told, of the middle of each frame.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Stretch {
-    /// The same at all times.
-    Constant(f64),
-    /// A wave.
-    Wave(Wave),
-    /// One number a frame.
-    Frames(Vec<f64>),
-    /// By the record.
-    Record(RecordStretch),
-}
-
-/// mean + amplitude sin(2 pi (frequency t - phase)), the amplitude grown from 0 over `ramp`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Wave {
-    /// Mean stretch.
-    #[serde(default = "one")]
-    pub mean: f64,
-    /// Amplitude.
-    pub amplitude: f64,
-    /// Frequency (1/s).
-    #[cfg_attr(test, schemars(with = "Positive"))]
-    pub frequency: f64,
-    /// Phase (periods).
-    #[serde(default)]
-    pub phase: f64,
-    /// Time over which the amplitude grows (s).
-    #[serde(default)]
-    #[cfg_attr(test, schemars(with = "NonNegative"))]
-    pub ramp: f64,
-}
-
-impl Wave {
-    /// Its value at a time (s).
-    #[must_use]
-    pub fn value(&self, time: f64) -> f64 {
-        let [_, by_amplitude, ..] = self.slopes(time);
-        self.mean + self.amplitude * by_amplitude
-    }
-
-    /// Its derivatives by mean, amplitude, frequency and phase at a time (s).
-    #[must_use]
-    pub fn slopes(&self, time: f64) -> [f64; 4] {
-        let [part, _] = smooth_ramp(time, self.ramp);
-        let (sin, cos) = (TAU * (self.frequency * time - self.phase)).sin_cos();
-        let turned = self.amplitude * part * cos * TAU;
-        [1.0, part * sin, turned * time, -turned]
-    }
-}
-
-/// A stretch 1 - contraction/length, with the contraction of a tendon from a column of the record.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct RecordStretch {
-    /// The column, in the record's unit of lengths.
-    pub contraction: String,
-    /// Length of the tendon at rest (m).
-    #[cfg_attr(test, schemars(with = "Positive"))]
-    pub length: f64,
 }
 
 /// `hold`: nodes that do not move along some axes: clamped along all, on a rail along all but one.

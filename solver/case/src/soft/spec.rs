@@ -35,6 +35,9 @@ pub struct SoftCase {
     /// Points of the body that are followed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marker: Vec<Marker>,
+    /// Angles between them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub angle: Vec<AngleSpec>,
     /// A recorded motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub record: Option<RecordSpec>,
@@ -56,7 +59,7 @@ pub struct SoftCase {
 }
 
 impl SoftCase {
-    /// Names of the columns of `series.csv` behind the time: places and velocities of markers, energies and work.
+    /// Names of the columns of `series.csv` behind the time: places and velocities of markers, angles, energies and work.
     #[must_use]
     pub fn quantities(&self) -> Vec<String> {
         let axes = &["x", "y", "z"][..self.geometry.dimensions()];
@@ -66,10 +69,11 @@ impl SoftCase {
             let velocities = axes.iter().map(move |axis| format!("{name}.velocity.{axis}"));
             places.chain(velocities).collect::<Vec<_>>()
         };
+        let angles = self.angle.iter().map(|angle| format!("{}.angle", angle.name));
         let of_body = ["energy.kinetic", "energy.elastic", "work"];
         let sought = self.optimisation.iter().map(|_| "objective");
         let of_body = of_body.into_iter().chain(sought).map(str::to_owned);
-        self.marker.iter().flat_map(of_marker).chain(of_body).collect()
+        self.marker.iter().flat_map(of_marker).chain(angles).chain(of_body).collect()
     }
 }
 
@@ -227,6 +231,47 @@ impl MarkerColumns {
     }
 }
 
+/// `[[angle]]`: how the body is bent at a marker, in the plane: from the line to it to the line from it, anticlockwise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct AngleSpec {
+    /// Its name, in names of quantities.
+    pub name: String,
+    /// Names of the marker before, of the marker, and of the one after it.
+    pub markers: [String; 3],
+    /// Its column in the record; what is compared are changes from the first frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column: Option<String>,
+    /// What a squared radian counts beside a square metre of markers (m2/rad2).
+    #[serde(default = "one")]
+    #[cfg_attr(test, schemars(with = "NonNegative"))]
+    pub weight: f64,
+}
+
+/// Unit of the angles of a record.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum AngleUnit {
+    /// Radian.
+    #[default]
+    Rad,
+    /// Degree.
+    Deg,
+}
+
+impl AngleUnit {
+    /// One of it (rad).
+    #[must_use]
+    pub fn radians(self) -> f64 {
+        match self {
+            Self::Rad => 1.0,
+            Self::Deg => 1f64.to_radians(),
+        }
+    }
+}
+
 /// `[record]`: a table of comma-separated values with one row a frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -243,6 +288,9 @@ pub struct RecordSpec {
     #[serde(default = "one")]
     #[cfg_attr(test, schemars(with = "Positive"))]
     pub length_unit: f64,
+    /// Unit of angles.
+    #[serde(default)]
+    pub angle_unit: AngleUnit,
     /// A column whose first change is where the motion begins: rows before, and those without a number in it, are
     /// left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]

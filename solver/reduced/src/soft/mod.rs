@@ -1,6 +1,7 @@
 //! The soft tier: elastic and active bodies under loads facet by facet, with exact gradients of whole motions.
 
 mod adjoint;
+mod angles;
 mod body;
 mod curve;
 mod error;
@@ -11,10 +12,11 @@ mod record;
 mod work;
 
 pub use adjoint::{Gradient, Seeds, WithGradient};
+pub use angles::{Angles, Bend};
 pub use body::SoftBody;
 pub use curve::Curve;
 pub use error::SoftError;
 pub use facets::FacetLaw;
 pub use motion::{Plan, Trajectory};
-pub use objective::{Markers, Objective, Travel};
+pub use objective::{Markers, Objective, Tracks, Travel};
 pub use record::{Gaps, Record};

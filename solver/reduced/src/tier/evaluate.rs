@@ -1,7 +1,7 @@
 //! `Seeker`: what a calibration or an optimisation of a soft case makes small, with its gradient.
 
 use crate::search::{Evaluated, Sought as Objective};
-use crate::soft::{Markers, Plan, Seeds, SoftError, Trajectory};
+use crate::soft::{Plan, Seeds, SoftError, Tracks, Trajectory};
 
 use super::mesh::{Bodies, SolidOf};
 use super::model::Model;
@@ -11,8 +11,8 @@ use alewife_case::soft::search::ObjectiveSpec;
 /// What is sought.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Kind {
-    /// Markers that move as these did.
-    Calibration(Markers),
+    /// A motion whose tracks are these.
+    Calibration(Tracks),
     /// An objective that is made large.
     Optimisation(ObjectiveSpec),
 }
@@ -107,7 +107,7 @@ where
         let Model { body, plan, .. } = &self.model;
         let motion = Bodies::simulate(body, plan)?;
         Ok(match &self.kind {
-            Kind::Calibration(markers) => body.value(&motion, markers),
+            Kind::Calibration(tracks) => body.value(&motion, tracks),
             Kind::Optimisation(objective) => self.made_large(objective, &motion)?.value,
         })
     }
@@ -117,8 +117,8 @@ where
         let Model { body, plan, .. } = &self.model;
         let mut seeds = body.no_seeds(plan);
         match &self.kind {
-            Kind::Calibration(markers) => {
-                let objective = body.add_seeds(motion, markers, 1.0, &mut seeds);
+            Kind::Calibration(tracks) => {
+                let objective = body.add_seeds(motion, tracks, 1.0, &mut seeds);
                 Ok(Begun { objective, seeds })
             }
             Kind::Optimisation(objective) => {

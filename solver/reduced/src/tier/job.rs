@@ -104,8 +104,7 @@ where
                 let Some(recorded) = &model.recorded else {
                     return Err(absent("[record]", "add the file of a recorded motion"));
                 };
-                let markers = model.markers(recorded.displacements.clone());
-                (&own.parameter, own.search, Kind::Calibration(markers))
+                (&own.parameter, own.search, Kind::Calibration(model.tracks(recorded)))
             }
             Which::Optimisation => {
                 let help = "add [optimisation] with the numbers that are sought";

@@ -1,6 +1,6 @@
 //! `Model`: a soft case made ready to move: its body, its plan, its markers and what was recorded of them.
 
-use crate::soft::{Gradient, Markers, Plan, SoftBody, SoftError, Travel};
+use crate::soft::{Angles, Bend, Gradient, Markers, Plan, SoftBody, SoftError, Tracks, Travel};
 use alewife_solid::solid::Scheme;
 use thiserror::Error;
 
@@ -10,8 +10,8 @@ use super::record::{Recorded, recorded};
 use super::{mesh, solid};
 use alewife_case::Diagnostic;
 use alewife_case::soft::search::ObjectiveSpec;
-use alewife_case::soft::solid::Stretch;
 use alewife_case::soft::spec::{SoftCase, SoftScheme};
+use alewife_case::soft::stretch::Stretch;
 use alewife_case::soft::{ParameterKey, SoftFile, check};
 
 /// Why a soft case does not move.
@@ -102,11 +102,17 @@ where
         (frame as f64 + 0.5) * self.case.soft.frame
     }
 
+    /// When a frame begins and ends (s).
+    fn span(&self, frame: usize) -> [f64; 2] {
+        [frame, frame + 1].map(|ends| ends as f64 * self.plan.frame)
+    }
+
     /// The stretch that a set of fibres is told in a frame.
     fn stretch(&self, set: usize, frame: usize) -> f64 {
         match &self.case.solid[0].fibre[set].stretch {
             Stretch::Constant(value) => *value,
             Stretch::Wave(wave) => wave.value(self.middle(frame)),
+            Stretch::Trapezoid(pulse) => pulse.value(self.span(frame)),
             Stretch::Frames(values) => values.get(frame).copied().unwrap_or(1.0),
             Stretch::Record(_) => {
                 let told = self.recorded.as_ref().and_then(|all| all.stretches[set].as_ref());
@@ -130,6 +136,10 @@ where
                 Stretch::Wave(wave) => over_frames(set, &|k| wave.slopes(self.middle(k))[of]),
                 _ => 0.0,
             },
+            ParameterKey::Trapezoid(set, of) => match &self.case.solid[0].fibre[set].stretch {
+                Stretch::Trapezoid(pulse) => over_frames(set, &|k| pulse.slopes(self.span(k))[of]),
+                _ => 0.0,
+            },
             ParameterKey::Frame(set, frame) => gradient.targets[frame][set],
             ParameterKey::Drag(point) => gradient.drag[point],
             ParameterKey::Thrust(point) => gradient.thrust[point],
@@ -147,6 +157,32 @@ where
             substeps: self.plan.substeps,
             displacements,
         }
+    }
+
+    /// The angles of the case.
+    #[must_use]
+    pub fn bends(&self) -> Vec<Bend> {
+        let node = |name: &String| {
+            let of_name = self.case.marker.iter().position(|marker| marker.name == *name);
+            of_name.map_or(0, |marker| self.nodes[marker])
+        };
+        self.case
+            .angle
+            .iter()
+            .map(|angle| Bend { nodes: angle.markers.each_ref().map(node) })
+            .collect()
+    }
+
+    /// What compares marks and angles with a record.
+    #[must_use]
+    pub fn tracks(&self, recorded: &Recorded) -> Tracks {
+        let angles = Angles {
+            bends: self.bends(),
+            weights: self.case.angle.iter().map(|angle| angle.weight).collect(),
+            substeps: self.plan.substeps,
+            changes: recorded.angles.clone(),
+        };
+        Tracks { markers: self.markers(recorded.displacements.clone()), angles }
     }
 
     /// What each frame counts in way and work.

@@ -4,17 +4,19 @@ use crate::soft::{Gaps, Record, SoftError};
 
 use alewife_case::Diagnostic;
 use alewife_case::soft::SoftFile;
-use alewife_case::soft::solid::Stretch;
 use alewife_case::soft::spec::{RecordGaps, RecordSpec};
+use alewife_case::soft::stretch::Stretch;
 
 /// Largest relative difference of the time between rows of a record from that of a frame.
 const APART: f64 = 1e-2;
 
-/// Places of the marks and contractions of tendons, frame by frame.
+/// Places of the marks, angles between them and contractions of tendons, frame by frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recorded {
     /// Displacements (m) from the first frame, by frame, marker and axis; not a number where nothing is known.
     pub displacements: Vec<Vec<Vec<f64>>>,
+    /// Changes of angles (rad) from the first frame, by frame and angle; not a number where nothing is known.
+    pub angles: Vec<Vec<f64>>,
     /// The stretches that sets of fibres are told, for those that the record tells, frame by frame.
     pub stretches: Vec<Option<Vec<f64>>>,
 }
@@ -42,7 +44,8 @@ pub fn recorded(file: &SoftFile) -> Result<Option<Recorded>, Diagnostic> {
     let reader = Reader { file, spec, record };
     let rows = reader.rows()?;
     let displacements = reader.displacements(&rows)?;
-    Ok(Some(Recorded { displacements, stretches: reader.stretches(&rows)? }))
+    let angles = reader.angles(&rows)?;
+    Ok(Some(Recorded { displacements, angles, stretches: reader.stretches(&rows)? }))
 }
 
 /// A column, with the sign of its values.
@@ -146,12 +149,7 @@ impl Reader<'_> {
         let start = rows[0];
         for (index, own) in columns.iter().enumerate() {
             for Signed { column, .. } in own.iter().flatten() {
-                let gap = rows.iter().find(|row| self.record.rows[**row][*column].is_nan());
-                let is_refused = self.spec.gaps == RecordGaps::Refused
-                    || self.record.rows[start][*column].is_nan();
-                if let Some(row) = gap.filter(|_| is_refused) {
-                    return Err(self.gap(index, *row, *column, *row == start));
-                }
+                self.check_gaps(rows, *column, &format!("marker.{index}.columns"))?;
             }
         }
         let moved = |row: usize, column: Option<Signed>| {
@@ -163,15 +161,49 @@ impl Reader<'_> {
         Ok(rows.iter().map(frame).collect())
     }
 
-    fn gap(&self, marker: usize, row: usize, column: usize, is_start: bool) -> Diagnostic {
+    /// Changes of angles (rad) from the first frame.
+    fn angles(&self, rows: &[usize]) -> Result<Vec<Vec<f64>>, Diagnostic> {
+        let mut columns = Vec::new();
+        for (index, angle) in self.file.case.angle.iter().enumerate() {
+            let key = format!("angle.{index}.column");
+            let column = angle.column.as_ref().map(|name| self.column(&key, name)).transpose()?;
+            if let Some(Signed { column, .. }) = column {
+                self.check_gaps(rows, column, &key)?;
+            }
+            columns.push(column);
+        }
+        let unit = self.spec.angle_unit.radians();
+        let changed = |row: usize, column: &Option<Signed>| {
+            let change = |Signed { column, sign }: &Signed| {
+                sign * unit * (self.record.rows[row][*column] - self.record.rows[rows[0]][*column])
+            };
+            column.as_ref().map_or(f64::NAN, change)
+        };
+        let frame = |row: &usize| columns.iter().map(|column| changed(*row, column)).collect();
+        Ok(rows.iter().map(frame).collect())
+    }
+
+    /// Refuses gaps in a column of a key, where they are not kept or are in the first frame.
+    fn check_gaps(&self, rows: &[usize], column: usize, key: &str) -> Result<(), Diagnostic> {
+        let start = rows[0];
+        let is_gap = |row: usize| self.record.rows[row][column].is_nan();
+        let gap = rows.iter().find(|row| is_gap(**row));
+        let is_refused = self.spec.gaps == RecordGaps::Refused || is_gap(start);
+        match gap.filter(|_| is_refused) {
+            Some(row) => Err(self.gap(key, *row, column, *row == start)),
+            None => Ok(()),
+        }
+    }
+
+    fn gap(&self, key: &str, row: usize, column: usize, is_start: bool) -> Diagnostic {
         let name = &self.record.names[column];
         let message = format!("row {} of the record has no number in `{name}`", row + 2);
         let help = if is_start {
-            "places count from this row: begin at another one"
+            "changes count from this row: begin at another one"
         } else {
             "write a number there, or record.gaps = \"kept\", which leaves such values out"
         };
-        self.file.error(&format!("marker.{marker}.columns"), message, help)
+        self.file.error(key, message, help)
     }
 
     fn stretches(&self, rows: &[usize]) -> Result<Vec<Option<Vec<f64>>>, Diagnostic> {

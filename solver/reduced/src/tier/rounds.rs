@@ -11,7 +11,7 @@ use super::mesh::{Bodies, SolidOf};
 use super::model::{Model, TierError};
 use super::parameters::Sought;
 use crate::search::{Found, Progress, Search, search};
-use crate::soft::SoftError;
+use crate::soft::{Angles, SoftError, Tracks};
 
 /// What moves as it is told, and is seen by its markers: a recorded robot, a model with other numbers, another
 /// solver.
@@ -119,7 +119,8 @@ where
         let at = journal("optimisation");
         let found = self.seek(true, kind, &settings(&optimisation.search), &at, told)?;
         let seen = robot.moves(&self.model.case)?;
-        let kind = Kind::Calibration(self.model.markers(seen.displacements));
+        let markers = self.model.markers(seen.displacements);
+        let kind = Kind::Calibration(Tracks { markers, angles: Angles::default() });
         let at = journal("calibration");
         let after = self.seek(false, kind, &settings(&calibration.search), &at, told)?;
         Ok(Round {

@@ -1,4 +1,4 @@
-//! The series of a motion: places and velocities of its markers, energies and work, frame by frame.
+//! The series of a motion: places and velocities of its markers, angles, energies and work, frame by frame.
 
 use std::fmt::Write as _;
 
@@ -47,6 +47,7 @@ where
     Bodies: SolidOf<D>,
 {
     let Model { case, body, plan, nodes, .. } = model;
+    let bends = model.bends();
     let names = ["time".to_owned()].into_iter().chain(case.quantities()).collect();
     let at_rest = vec![1.0; body.solid.spec().fibres.len()];
     let mut rows = Vec::new();
@@ -61,6 +62,7 @@ where
             row.extend_from_slice(&level.places[D * node..D * (node + 1)]);
             row.extend_from_slice(&level.velocities[D * node..D * (node + 1)]);
         }
+        row.extend(bends.iter().map(|bend| bend.angle(&level.places)));
         let momentum = body.solid.times_mass(&level.velocities);
         row.push(0.5 * momentum.iter().zip(&level.velocities).map(|(p, v)| p * v).sum::<f64>());
         row.push(body.solid.elastic_energy(&level.places, told)?);

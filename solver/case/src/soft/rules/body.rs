@@ -3,8 +3,8 @@
 use super::mistakes::Mistakes;
 use crate::soft::solid::{
     FibreSpec, GridSpec, HoldSpec, MaterialSpec, OutlineSpec, Region, SoftSolid, SolidOrder,
-    Stretch,
 };
+use crate::soft::stretch::{Stretch, Trapezoid};
 use crate::{Geometry, ShapeSpec};
 
 /// Most cells of a grid.
@@ -191,6 +191,7 @@ fn fibre(mistakes: &mut Mistakes<'_>, key: &str, fibre: &FibreSpec) {
                 mistakes.add(&format!("{at}.wave.amplitude"), message, help);
             }
         }
+        Stretch::Trapezoid(pulse) => trapezoid(mistakes, &format!("{at}.trapezoid"), pulse),
         Stretch::Frames(values) => {
             let (n, frames) = (values.len(), mistakes.case().soft.frames);
             if n != frames {
@@ -209,6 +210,25 @@ fn fibre(mistakes: &mut Mistakes<'_>, key: &str, fibre: &FibreSpec) {
                 mistakes.add(&at, message, "add [record] with its file");
             }
         }
+    }
+}
+
+fn trapezoid(mistakes: &mut Mistakes<'_>, key: &str, pulse: &Trapezoid) {
+    let Trapezoid { amplitude, frequency, phase, rise, on } = *pulse;
+    mistakes.positive(&format!("{key}.frequency"), frequency);
+    mistakes.not_negative(&format!("{key}.phase"), phase);
+    mistakes.positive(&format!("{key}.rise"), rise);
+    if !(0.0..1.0).contains(&amplitude) {
+        let message = format!("the stretch falls to {}", 1.0 - amplitude);
+        let help = "write a contraction of 0 or more, below 1";
+        mistakes.add(&format!("{key}.amplitude"), message, help);
+    }
+    if rise > on || on + rise > 1.0 {
+        let message =
+            format!("pulses rise until {rise}, and fall from {on} to {} of a period", on + rise);
+        let help =
+            "let them rise before they fall, and fall within a period: rise <= on <= 1 - rise";
+        mistakes.add(&format!("{key}.rise"), message, help);
     }
 }
 

@@ -1,6 +1,7 @@
 //! What steps, loads, markers and the record of a soft case may be.
 
 use super::mistakes::Mistakes;
+use crate::Geometry;
 use crate::soft::spec::LoadCurve;
 
 /// Most steps of a motion, all of whose places are kept.
@@ -18,6 +19,7 @@ pub fn check(mistakes: &mut Mistakes<'_>) {
         mistakes.positive("record.length_unit", record.length_unit);
     }
     markers(mistakes);
+    angles(mistakes);
 }
 
 fn steps(mistakes: &mut Mistakes<'_>) {
@@ -62,12 +64,7 @@ fn markers(mistakes: &mut Mistakes<'_>) {
         let key = format!("marker.{index}");
         mistakes.per_dimension(&format!("{key}.at"), marker.at.len());
         mistakes.not_negative(&format!("{key}.weight"), marker.weight);
-        let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        if marker.name.is_empty() || !marker.name.chars().all(is_plain) {
-            let message = format!("a marker has the name {:?}", marker.name);
-            let help = "write letters, digits, - and _: names are those of columns";
-            mistakes.add(&format!("{key}.name"), message, help);
-        }
+        name(mistakes, &key, "a marker", &marker.name);
         if markers[..index].iter().any(|other| other.name == marker.name) {
             let message = format!("two markers are called \"{}\"", marker.name);
             mistakes.add(&format!("{key}.name"), message, "give each its own name");
@@ -79,6 +76,48 @@ fn markers(mistakes: &mut Mistakes<'_>) {
         if marker.columns.each()[n..].iter().any(Option::is_some) {
             let message = format!("`{key}.columns` has z in a case of {n} dimensions");
             mistakes.add(&format!("{key}.columns"), message, "accepted: x and y");
+        }
+    }
+}
+
+/// Refuses what is no name of columns.
+fn name(mistakes: &mut Mistakes<'_>, key: &str, what: &str, name: &str) {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if name.is_empty() || !name.chars().all(is_plain) {
+        let message = format!("{what} has the name {name:?}");
+        let help = "write letters, digits, - and _: names are those of columns";
+        mistakes.add(&format!("{key}.name"), message, help);
+    }
+}
+
+fn angles(mistakes: &mut Mistakes<'_>) {
+    let case = mistakes.case().clone();
+    if !case.angle.is_empty() && case.geometry != Geometry::Planar {
+        let message = "angles are those of planar bodies".to_owned();
+        return mistakes.add("angle", message, "compare the places of markers");
+    }
+    let known: Vec<&str> = case.marker.iter().map(|marker| marker.name.as_str()).collect();
+    for (index, angle) in case.angle.iter().enumerate() {
+        let key = format!("angle.{index}");
+        name(mistakes, &key, "an angle", &angle.name);
+        mistakes.not_negative(&format!("{key}.weight"), angle.weight);
+        if case.angle[..index].iter().any(|other| other.name == angle.name) {
+            let message = format!("two angles are called \"{}\"", angle.name);
+            mistakes.add(&format!("{key}.name"), message, "give each its own name");
+        }
+        for (nth, marker) in angle.markers.iter().enumerate() {
+            let at = format!("{key}.markers.{nth}");
+            if !known.contains(&marker.as_str()) {
+                let message = format!("there is no marker \"{marker}\"");
+                mistakes.add(&at, message, &format!("the markers: {}", known.join(", ")));
+            } else if angle.markers[..nth].contains(marker) {
+                let message = format!("\"{marker}\" stands twice in an angle");
+                mistakes.add(&at, message, "name three markers, in their order along the body");
+            }
+        }
+        if angle.column.is_some() && case.record.is_none() {
+            let message = format!("\"{}\" has a column of a record, and there is none", angle.name);
+            mistakes.add(&format!("{key}.column"), message, "add [record] with its file");
         }
     }
 }

@@ -3,7 +3,8 @@
 use super::mistakes::Mistakes;
 use crate::soft::ParameterKey;
 use crate::soft::search::{ObjectiveSpec, Parameter, SearchSettings};
-use crate::soft::spec::ReferenceOf;
+use crate::soft::spec::{ReferenceOf, SoftCase};
+use crate::soft::stretch::Stretch;
 
 /// Frames that a mean is taken of at least: with fewer a taper is hardly more than one of them.
 const FEWEST_FRAMES: usize = 4;
@@ -14,9 +15,10 @@ const ROUNDING: f64 = 1e-6;
 pub fn check(mistakes: &mut Mistakes<'_>) {
     let case = mistakes.case().clone();
     if let Some(calibration) = &case.calibration {
-        if !case.marker.iter().any(|marker| !marker.columns.is_empty()) {
+        let has_angles = case.angle.iter().any(|angle| angle.column.is_some());
+        if !has_angles && !case.marker.iter().any(|marker| !marker.columns.is_empty()) {
             let message = "nothing recorded can be compared with".to_owned();
-            let help = "add [record], and `columns` to the markers that are in it";
+            let help = "add [record], and `columns` to the markers, or a `column` to the angles, that are in it";
             mistakes.add("calibration", message, help);
         }
         parameters(mistakes, "calibration", &calibration.parameter);
@@ -180,6 +182,21 @@ fn bounds(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter) {
     }
 }
 
+/// Whether pulses are some at both bounds of a number of them.
+fn bounds_are(case: &SoftCase, parameter: &Parameter, key: ParameterKey) -> Option<bool> {
+    let ParameterKey::Trapezoid(set, _) = key else { return None };
+    let is_one = |bound: f64| {
+        let mut case = case.clone();
+        key.write(&mut case, bound);
+        match &case.solid.first()?.fibre.get(set)?.stretch {
+            Stretch::Trapezoid(pulse) => Some(pulse.is_one()),
+            _ => None,
+        }
+    };
+    let [lower, upper] = parameter.bounds;
+    Some(is_one(lower)? && is_one(upper)?)
+}
+
 /// What a number may be at all.
 fn limits(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter, key: ParameterKey) {
     let [lower, upper] = parameter.bounds;
@@ -192,6 +209,13 @@ fn limits(mistakes: &mut Mistakes<'_>, at: &str, parameter: &Parameter, key: Par
             if lower <= 0.0 =>
         {
             Some("write a lower bound above 0: this number cannot be 0 or below")
+        }
+        ParameterKey::Trapezoid(..)
+            if bounds_are(mistakes.case(), parameter, key) == Some(false) =>
+        {
+            Some(
+                "pulses have 0 <= amplitude < 1 and 0 < rise <= on <= 1 - rise, at the bounds, too",
+            )
         }
         ParameterKey::Poisson(_) if lower <= -1.0 || upper >= 0.5 => {
             Some("Poisson's ratio is sought above -1 and below 0.5: write bounds between them")
