@@ -27,7 +27,8 @@ weight = 1e-3
 [record]
 angle_unit = "deg"
 "#;
-    BAR.replace(wave, pulses).replace("[record]", more.trim_start())
+    let text = BAR.replace(wave, pulses).replace("[record]", more.trim_start());
+    text.replace("stretch.wave.amplitude", "stretch.trapezoid.amplitude")
 }
 
 /// That of the bar with a column of angles.
