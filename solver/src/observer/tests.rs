@@ -70,7 +70,7 @@ impl Run {
             pressure: mesh.nodes[..mesh.n_vertices].iter().map(|x| x.x + 2.0 * x.y).collect(),
             mesh,
             names: vec!["swimmer.speed".to_owned(), "swimmer.force.x".to_owned()],
-            timing: Timing { cpu: [1.0; 7], wall: [0.5; 7] },
+            timing: Timing { cpu: [1.0; 8], wall: [0.5; 8] },
         }
     }
 

@@ -8,6 +8,7 @@ use super::newton::{Criterion, Flow, Tangents, newton};
 use super::placement::{Passes, Placement};
 use super::workspace::Workspace;
 use crate::contact::{ByMobility, ByQuasiNewton, ContactLoads, CoupledSolver};
+use crate::timing::Stage;
 
 impl<const D: usize> StepContext<'_, D> {
     /// How contact is found in the flow of this step.
@@ -39,12 +40,14 @@ impl<const D: usize> StepContext<'_, D> {
         let (first_scale, n_systems) = (guess.scale, guess.n_systems);
         let flow = self.solve_flow(work, configuration, guess, has_contact)?;
         let scale = first_scale.unwrap_or(flow.scale);
+        let began = work.timing.begin();
         let mut flow = FlowUnderLoads::new(self, configuration, work, flow);
         let loads = match &contact {
             Some(contact) => method.solve(contact, &mut flow)?,
             None => ContactLoads::none(self.state.poses.len()),
         };
         let mut flow = flow.with_contact(loads);
+        work.timing.book_rest(Stage::Contact, began);
         (flow.scale, flow.n_systems) = (scale, flow.n_systems + n_systems);
         Ok(flow)
     }
