@@ -40,7 +40,7 @@ fn middle<K: Kinematics<N, S>, const N: usize, const S: usize>(rod: &Rod<K, N, S
         let part = ends[1] - ends[0];
         let (place, tangent) = (0.5 * part / length, part * part / (12.0 * length));
         let first = element * N / 2;
-        let second = first + N / 2;
+        let second = (first + N / 2) % weights.len();
         weights[first] += place;
         weights[first + K::DIMENSION] += tangent;
         weights[second] += place;

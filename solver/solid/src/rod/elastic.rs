@@ -17,6 +17,8 @@ pub struct Rod<K, const N: usize, const S: usize> {
     laws: Vec<[Law; S]>,
     flexures: Vec<Flexure>,
     mass: DMatrix<f64>,
+    /// Of a rod that is closed, the way from a place of it to the same one a period further (m).
+    period: Option<SVector<f64, 3>>,
 }
 
 /// What a rod is made of.
@@ -104,7 +106,7 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
             }
             laws.push(of_element);
         }
-        Ok(Self { kinematics, knots, laws, flexures, mass })
+        Ok(Self { kinematics, knots, laws, flexures, mass, period: None })
     }
 
     /// The same rod, in which what only fixes the vectors across at the knots relaxes within a time (s): without mass nothing else
@@ -117,6 +119,27 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
             }
         }
         self
+    }
+
+    /// The same rod, whose last knot is its first one a period (m) further: it goes on for ever, and has no ends.
+    #[must_use]
+    pub(super) fn closed(mut self, period: SVector<f64, 3>) -> Self {
+        let all = std::mem::take(&mut self.mass);
+        self.period = Some(period);
+        let n = self.n_coordinates();
+        self.mass = DMatrix::zeros(n, n);
+        for i in 0..all.nrows() {
+            for j in 0..all.ncols() {
+                self.mass[(i % n, j % n)] += all[(i, j)];
+            }
+        }
+        self
+    }
+
+    /// Whether its last knot is its first one a period further.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.period.is_some()
     }
 
     /// Distances of the knots along the rod (m).
@@ -136,9 +159,26 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
         Location { element, xi: (along - self.knots[element]) / length, length }
     }
 
-    /// Coordinates, or velocities, of an element.
+    /// Where the coordinates of an element are among those of the rod.
+    fn indices(&self, element: usize) -> [usize; N] {
+        let n = self.n_coordinates();
+        std::array::from_fn(|i| (element * Self::STRIDE + i) % n)
+    }
+
+    /// Coordinates of an element.
     pub(super) fn of_element(&self, all: &DVector<f64>, element: usize) -> SVector<f64, N> {
-        all.fixed_rows::<N>(element * Self::STRIDE).into_owned()
+        let mut values = self.rates_of_element(all, element);
+        if let Some(period) = self.period.filter(|_| element + 1 == self.laws.len()) {
+            for axis in 0..K::DIMENSION {
+                values[Self::STRIDE + axis] += period[axis];
+            }
+        }
+        values
+    }
+
+    /// Rates of the coordinates of an element.
+    pub(super) fn rates_of_element(&self, all: &DVector<f64>, element: usize) -> SVector<f64, N> {
+        SVector::from(self.indices(element).map(|i| all[i]))
     }
 
     fn length_of(&self, element: usize) -> f64 {
@@ -162,7 +202,7 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
     ) -> Instant<N, S> {
         let at = self.of_element(coordinates, element);
         let gradients = gradients(&self.kinematics, self.length_of(element), &at);
-        let rates = gradients.first * self.of_element(velocities, element);
+        let rates = gradients.first * self.rates_of_element(velocities, element);
         let stresses = SVector::from_fn(|i, _| {
             let law = &self.laws[element][i];
             let Activity { rest, moment, .. } = self.activity(law, time);
@@ -195,7 +235,8 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
 
 impl<K: Kinematics<N, S>, const N: usize, const S: usize> Structure for Rod<K, N, S> {
     fn n_coordinates(&self) -> usize {
-        Self::STRIDE * self.knots.len()
+        let n_free = self.knots.len() - usize::from(self.is_closed());
+        Self::STRIDE * n_free
     }
 
     fn mass(&self) -> DMatrix<f64> {
@@ -212,8 +253,10 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Structure for Rod<K, N
         for element in 0..self.laws.len() {
             let Instant { gradients, stresses, .. } =
                 self.instant(element, coordinates, velocities, time);
-            let mut rows = forces.fixed_rows_mut::<N>(element * Self::STRIDE);
-            rows += gradients.first.transpose() * stresses;
+            let of_element = gradients.first.transpose() * stresses;
+            for (i, force) in self.indices(element).into_iter().zip(of_element.iter()) {
+                forces[i] += force;
+            }
         }
         forces
     }
@@ -230,7 +273,7 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Structure for Rod<K, N
             let Instant { gradients, stresses, .. } =
                 self.instant(element, coordinates, velocities, time);
             let at = self.of_element(coordinates, element);
-            let speeds = self.of_element(velocities, element);
+            let speeds = self.rates_of_element(velocities, element);
             let second = second_derivatives(&self.kinematics, self.length_of(element), &at);
             let (mut by_place, mut by_speed) =
                 (SMatrix::<f64, N, N>::zeros(), SMatrix::<f64, N, N>::zeros());
@@ -245,11 +288,13 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Structure for Rod<K, N
                     by_speed += column * row * factor;
                 }
             }
-            let first = element * Self::STRIDE;
-            let mut block = stiffness.fixed_view_mut::<N, N>(first, first);
-            block += by_place;
-            let mut block = damping.fixed_view_mut::<N, N>(first, first);
-            block += by_speed;
+            let indices = self.indices(element);
+            for (column, j) in indices.into_iter().enumerate() {
+                for (row, i) in indices.into_iter().enumerate() {
+                    stiffness[(i, j)] += by_place[(row, column)];
+                    damping[(i, j)] += by_speed[(row, column)];
+                }
+            }
         }
         Tangents { stiffness, damping }
     }

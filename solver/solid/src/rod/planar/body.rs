@@ -144,7 +144,7 @@ impl Flexible for PlanarRodBody {
     fn weights(&self, coordinates: &DVector<f64>, rest: &Vector3<f64>) -> Vec<Weight> {
         let rows = self.at(coordinates, rest);
         let weight = |i: usize| Weight {
-            coordinate: rows.first + i,
+            coordinate: (rows.first + i) % self.n_coordinates(),
             weight: rows.weights.column(i).push(0.0),
         };
         (0..rows.weights.ncols()).map(weight).collect()
@@ -154,7 +154,7 @@ impl Flexible for PlanarRodBody {
         let along = self.section_point(rest).along;
         let SectionRows { place, first, weights } = self.rod.section(coordinates, along);
         let weight = |i: usize| SectionWeight {
-            coordinate: first + i,
+            coordinate: (first + i) % self.n_coordinates(),
             linear: Vector3::new(weights[(0, i)], weights[(1, i)], 0.0),
             angular: Vector3::z() * weights[(2, i)],
         };

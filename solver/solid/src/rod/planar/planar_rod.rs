@@ -9,6 +9,7 @@ use crate::rod::hermite::{GAUSS, GAUSS_WEIGHTS, Hermite};
 use crate::rod::kinematics::{Kinematics, Number, StrainKind, StrainPoint};
 use crate::rod::mass::mass;
 use crate::rod::properties::PlanarProperties;
+use crate::structure::Structure;
 
 /// Coordinates of an element.
 pub(super) const COORDINATES: usize = 8;
@@ -88,6 +89,14 @@ impl PlanarRod {
         Self::of_parts(Parts { kinematics: Plane, rod, flexures: vec![bending], mass })
     }
 
+    /// A rod that is closed across a periodic domain: its last knot is its first one a period (m) further.
+    ///
+    /// # Errors
+    /// As of [`PlanarRod::new`].
+    pub fn periodic(properties: PlanarProperties, period: Vector2<f64>) -> Result<Self, RodError> {
+        Ok(Self::new(properties)?.closed(period.push(0.0)))
+    }
+
     /// Coordinates of a straight rod from a place (m) in a direction (rad).
     #[must_use]
     pub fn straight(&self, place: Vector2<f64>, angle: f64) -> DVector<f64> {
@@ -100,8 +109,9 @@ impl PlanarRod {
         /// Steps of an element in which the curve is followed, by the Gauss rule in each.
         const STEPS: u32 = 8;
         let (mut place, mut angle) = (place, angle);
-        let mut coordinates = DVector::zeros(4 * self.knots().len());
-        for (knot, along) in self.knots().iter().enumerate() {
+        let mut coordinates = DVector::zeros(self.n_coordinates());
+        let n_free = coordinates.len() / 4;
+        for (knot, along) in self.knots().iter().enumerate().take(n_free) {
             if knot > 0 {
                 let from = self.knots()[knot - 1];
                 let step = (along - from) / f64::from(STEPS);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::{DVector, SMatrix, Vector2};
+use nalgebra::{DVector, SMatrix, SVector, Vector2};
 
 use super::planar_rod::{COORDINATES, PlanarRod};
 use crate::rod::hermite::Hermite;
@@ -21,7 +21,8 @@ pub struct SectionPoint {
 pub struct SurfaceRows {
     /// Place (m).
     pub place: Vector2<f64>,
-    /// First of the coordinates the point depends on.
+    /// First of the coordinates the point depends on, the others behind it; of a rod that is closed the first of
+    /// all comes behind the last.
     pub first: usize,
     /// Weights on their velocities, which are also the derivatives of the place by the coordinates.
     pub weights: SMatrix<f64, 2, COORDINATES>,
@@ -31,7 +32,9 @@ impl SurfaceRows {
     /// Velocity of the point (m/s).
     #[must_use]
     pub fn velocity(&self, velocities: &DVector<f64>) -> Vector2<f64> {
-        self.weights * velocities.fixed_rows::<COORDINATES>(self.first)
+        let n = velocities.len();
+        let of_point = std::array::from_fn(|i| velocities[(self.first + i) % n]);
+        self.weights * SVector::<f64, COORDINATES>::from(of_point)
     }
 }
 
@@ -40,7 +43,7 @@ impl SurfaceRows {
 pub struct SectionRows {
     /// Where the centreline is (m).
     pub place: Vector2<f64>,
-    /// First of the coordinates that it depends on.
+    /// First of the coordinates that it depends on, as of [`SurfaceRows`].
     pub first: usize,
     /// Weights on their velocities, of velocity along x and y and of angular velocity.
     pub weights: SMatrix<f64, 3, COORDINATES>,
