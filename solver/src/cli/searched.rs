@@ -104,9 +104,12 @@ impl SearchDirectory {
     /// The best of what is sought at the moment, with its sign: of an optimisation the objective, else what is left.
     pub fn best(&self) -> Option<f64> {
         let last = self.journals.last()?;
-        let best = last.journal.best()?.objective;
-        let is_made_large = last.journal.search.starts_with("alewife optimisation");
-        Some(if is_made_large { -best } else { best })
+        Some(sign_of(&last.journal.search) * last.journal.best()?.objective)
+    }
+
+    /// The sign that journals have what is sought with: what is made large stands there with its sign turned.
+    pub fn sign(&self) -> f64 {
+        self.journals.first().map_or(1.0, |first| sign_of(&first.journal.search))
     }
 }
 
@@ -114,6 +117,10 @@ impl SearchDirectory {
 fn round_of(file: &str) -> usize {
     let number = file.strip_prefix("round-").and_then(|rest| rest.split(['-', '.']).next());
     number.and_then(|number| number.parse().ok()).unwrap_or(0)
+}
+
+fn sign_of(search: &str) -> f64 {
+    if search.starts_with("alewife optimisation") { -1.0 } else { 1.0 }
 }
 
 /// The command that has begun a journal.

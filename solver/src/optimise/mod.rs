@@ -10,5 +10,6 @@ mod sought;
 
 pub use constraints::Held;
 pub use error::OptimiseError;
+pub use objective::{Objective, Objectively};
 pub use optimum::{Compared, Optimum};
 pub use rounds::{FlowSearch, RoundProgress};

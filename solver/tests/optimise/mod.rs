@@ -113,6 +113,7 @@ fn the_spheroid_of_least_drag_is_found_and_runs() {
     let force = found["quantities"][0]["value"].as_f64().unwrap();
     assert!((-force / (6.0 * PI) / 0.9555 - 1.0).abs() < 1e-3, "{force}");
     assert!(found["evaluations"].as_u64().unwrap() < 15, "{found}");
+    what_is_damaged_is_named(at);
     let said = done(at, &["run", "o/case.toml", "--out", "r", "--quiet"]);
     assert!(said.is_empty() || said.contains("spheroid"), "{said}");
     let series = fs::read_to_string(at.join("r/series.csv")).unwrap();
@@ -228,6 +229,39 @@ fn goes_on_with_the_same_bits(case: &str) {
     fs::remove_file(at.join("o/report.json")).unwrap();
     let other = ["optimise", "spheroid.toml", "--set", "fluid.viscosity=2", "--out", "o"];
     assert!(refused(at, &other, 2).contains("journal of another search"));
+}
+
+/// Of a search in `o` all files agree, and one in which a number is another is named.
+#[track_caller]
+fn what_is_damaged_is_named(at: &Path) {
+    assert!(done(at, &["verify", "o"]).contains("o: sound; finished"));
+    let found = report(&at.join("o"));
+    let entry = |key: &str, value: &Value| format!("\"{key}\": {value}");
+    let aspect = found["parameters"][0]["value"].as_f64().unwrap();
+    let axis = aspect.powf(2.0 / 3.0).to_string();
+    let table = fs::read_to_string(at.join("o/evaluations.csv")).unwrap();
+    let slope = table.lines().nth(2).unwrap().rsplit(',').next().unwrap().to_owned();
+    let (quantity, compared) = (&found["quantities"][0]["value"], &found["comparison"][0]);
+    for (file, text, said) in [
+        ("evaluations.csv", slope, "line 3 has other numbers than evaluation 2"),
+        ("report.json", entry("objective", &found["objective"]), "the best evaluation has -18.0"),
+        ("report.json", entry("start", &found["start"]), "the first evaluation has -18.4"),
+        ("report.json", entry("value", quantity), "its quantities give 7"),
+        ("report.json", entry("computed", &compared["computed"]), "compared of `aspect` is not"),
+        ("case.toml", axis, "`body.0.shape.spheroid.semi_axes.0` is 7, and that of the best"),
+    ] {
+        let other = text.split_once(": ").map_or_else(String::new, |(key, _)| format!("{key}: "));
+        let other = other + "7.0";
+        let path = at.join("o").join(file);
+        let whole = fs::read_to_string(&path).unwrap();
+        assert!(whole.contains(&text), "{file} has no {text}: {whole}");
+        fs::write(&path, whole.replace(&text, &other)).unwrap();
+        let output = alewife(at, &["verify", "o"]);
+        let told = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert_eq!(output.status.code(), Some(65), "{file}, {text}: {told}");
+        assert!(told.contains(said), "{file}, {text}: {told}");
+        fs::write(&path, whole).unwrap();
+    }
 }
 
 /// Of all slips with these modes the first alone has the best efficiency, 6 pi mu a U^2 / P = 1/2.

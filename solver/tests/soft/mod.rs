@@ -129,6 +129,16 @@ fn an_optimum_is_found_and_runs_and_a_search_called_again_is_the_same() {
     fs::create_dir(at.join("q")).unwrap();
     fs::write(at.join("q/search.journal"), &journal).unwrap();
     assert!(refused(at, &other, 2).contains("journal of another search"));
+    // A case with another number than was found
+    let case = fs::read_to_string(at.join("p/case.toml")).unwrap();
+    let other = case
+        .lines()
+        .map(|line| if line.starts_with("amplitude = ") { "amplitude = 0.03" } else { line });
+    fs::write(at.join("p/case.toml"), other.collect::<Vec<_>>().join("\n")).unwrap();
+    let output = alewife(at, &["verify", "p"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.contains("case.toml: `amplitude` is 0.03, and that of the best"), "{said}");
+    fs::write(at.join("p/case.toml"), case).unwrap();
     // A journal whose best evaluation went is not that of the report
     let end = journal.lines().min_by(|a, b| objective(a).total_cmp(&objective(b))).unwrap();
     fs::write(at.join("p/search.journal"), journal.replace(&format!("{end}\n"), "")).unwrap();

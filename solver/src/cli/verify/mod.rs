@@ -6,8 +6,10 @@ mod known;
 mod motion;
 mod one;
 mod records;
+mod report;
 mod run;
 mod search;
+mod searched_case;
 mod states;
 mod sweep;
 
@@ -34,7 +36,8 @@ rise, and its rows are those of the states; that states can be read, and continu
 of fields.pvd are there, whole and of this run; messages, comparison and log. Of a run of a soft case or a reduced
 model: the same of what it has, and that there is a row of each frame or step. Of a sweep: that each point is
 the one of its place, all of that for each point, and the table. Points that are missing are counted. Of a
-search, of optimise, calibrate or loop: that its journals can be read, and the report or the table has what they have.
+search, of optimise, calibrate or loop: that its journals can be read, and the report, the table and the case have
+what they have.
 
 Exit codes: 0 all is sound; 65 something is not; 66 there is no run, sweep or search.")]
 pub struct Options {
