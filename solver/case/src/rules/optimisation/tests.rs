@@ -113,8 +113,28 @@ fn quantities_are_those_with_a_gradient_of_a_steady_flow() {
     };
     refuses(sum, &expression("-g", "f"), &["`g`", ":14"]);
     refuses(sum, &expression("-f*t", "f"), &["a place or a time", ":14"]);
-    refuses(sum, &expression("-x", "x"), &["cannot be called `x`", ":14"]);
+    // One error of a name that nothing can have, and it is not offered
+    for name in ["x", "y", "t", "my-force"] {
+        let found = said(sum, &expression(&format!("-{name}"), name));
+        assert!(found.contains(&format!("cannot be called `{name}`")), "{found}");
+        assert_eq!(found.matches("error: ").count(), 1, "{found}");
+    }
+    refuses(sum, &expression("-f*t", "f"), &["write an expression of f"]);
     refuses(sum, "sum = []", &["sum"]);
+}
+
+#[test]
+fn a_cycle_that_has_not_ended_has_no_average() {
+    let said = |end: &str| {
+        let settings = [format!("time.unsteady.end={end}")];
+        let file = Case::read("three-sphere-optimum", &settings).unwrap();
+        check(&file).iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    assert!(!said("1.0").contains("error: "), "{}", said("1.0"));
+    let found = said("0.5");
+    let wanted =
+        "`swimmer.cycle.cost_of_transport` has no value: a cycle takes 1, and the run ends at 0.5";
+    assert!(found.contains(wanted) && found.contains("end = 1 or more"), "{found}");
 }
 
 #[test]
