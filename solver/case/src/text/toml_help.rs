@@ -13,22 +13,42 @@ const ANGLES: [(&str, &str); 7] = [
     ("radians", "rad"),
 ];
 
+/// Why a text is not TOML, and what helps.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TomlHelp {
+    /// In words of a case where the slip is known, else those of the reader of TOML.
+    pub reason: String,
+    /// What helps.
+    pub help: String,
+}
+
 /// What helps where a text cannot be read, with the reason the reader of TOML gives.
-pub fn toml_help(text: &str, at: Range<usize>, reason: &str) -> String {
+pub fn toml_help(text: &str, at: Range<usize>, reason: &str) -> TomlHelp {
+    let told = |help: String| TomlHelp { reason: reason.to_owned(), help };
     if reason.contains("duplicate key") {
-        return "it is given above already: keep one of the two".to_owned();
+        return told("it is given above already: keep one of the two".to_owned());
     }
     let line = line_at(text, at.start);
     let value = line.split_once('=').map(|(_, value)| value.trim());
-    typographic(line)
-        .or_else(|| decimal_comma(line))
-        .or_else(|| value.and_then(with_unit))
-        .or_else(|| value.and_then(bare_word))
-        .or_else(|| expression(text, at.start))
-        .or_else(|| no_key(line))
-        .unwrap_or_else(|| {
-            "strings stand in quotes, arrays in [ ], tables in { } or under a [header]".to_owned()
-        })
+    if let Some(help) = typographic(line).or_else(|| decimal_comma(line)) {
+        return told(help);
+    }
+    // What stands behind the key is the slip, and the reader of TOML says what it would have made of its start
+    if let Some(value) = value
+        && let Some(help) = with_unit(value).or_else(|| bare_word(value))
+    {
+        let shown = value.split([',', '#', '}']).next().unwrap_or(value).trim();
+        let reason = format!("`{shown}` is neither a number nor a text in quotes");
+        return TomlHelp { reason, help };
+    }
+    told(other_help(text, at, line))
+}
+
+/// What helps with other slips.
+fn other_help(text: &str, at: Range<usize>, line: &str) -> String {
+    expression(text, at.start).or_else(|| no_key(line)).unwrap_or_else(|| {
+        "strings stand in quotes, arrays in [ ], tables in { } or under a [header]".to_owned()
+    })
 }
 
 /// Arithmetic where a number stands.
@@ -140,6 +160,21 @@ mod tests {
         let error = tree::parse(&Arc::new(source)).unwrap_err();
         assert_eq!(error.origin.location().line, 2, "{line}: {error:?}");
         error.help
+    }
+
+    #[test]
+    fn a_value_without_quotes_is_shown_in_place_of_what_a_reader_made_of_its_start() {
+        for (line, shown) in [
+            ("step = 0.1 s", "0.1 s"),
+            ("step = 0.1 s   # of the pump", "0.1 s"),
+            ("geometry = planar", "planar"),
+        ] {
+            let source = Source { name: "a.toml".to_owned(), directory: None, text: line.into() };
+            let message = tree::parse(&Arc::new(source)).unwrap_err().message;
+            let wanted =
+                format!("this is not TOML: `{shown}` is neither a number nor a text in quotes");
+            assert_eq!(message, wanted);
+        }
     }
 
     #[test]

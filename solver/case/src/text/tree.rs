@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 use super::choices::CHOICES;
 use super::names::{Step, with_dots};
 use super::source::{Origin, Source};
-use super::toml_help::toml_help;
+use super::toml_help::{TomlHelp, toml_help};
 
 /// A value and where it is written.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,10 +67,11 @@ pub struct TreeError {
 pub fn parse(source: &Arc<Source>) -> Result<TomlNode, TreeError> {
     let table = DeTable::parse(&source.text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
+        let TomlHelp { reason, help } = toml_help(&source.text, span.clone(), error.message());
         TreeError {
-            origin: Origin { source: Arc::clone(source), span: span.clone() },
-            message: format!("this is not TOML: {}", error.message()),
-            help: toml_help(&source.text, span, error.message()),
+            origin: Origin { source: Arc::clone(source), span },
+            message: format!("this is not TOML: {reason}"),
+            help,
         }
     })?;
     let start = Origin { source: Arc::clone(source), span: 0..0 };

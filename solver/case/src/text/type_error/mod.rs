@@ -1,13 +1,16 @@
 //! `TypeError`: why a value of a case cannot be typed, where it is, and what is accepted.
 
+mod examples;
+
 use std::collections::HashSet;
 use std::fmt::{self, Display};
 
 use serde::de::{self, Expected, Unexpected};
 
-use super::meant::{Meant, meant};
-use super::nearest::nearest;
-use super::source::Origin;
+use self::examples::{array_example, broken, number_example, whole_example};
+use crate::text::meant::{Meant, meant};
+use crate::text::nearest::nearest;
+use crate::text::source::Origin;
 
 /// The alternative that a file becomes.
 pub const KNOTS_OF_A_FILE: &str = "cubic";
@@ -116,6 +119,9 @@ impl TypeError {
                 format!("`{path}` cannot be `{found}`")
             }
             Mismatch::MissingKey(key) => format!("missing key `{key}` {}", self.table()),
+            Mismatch::WrongType { found, .. } if broken(self.mismatch()).is_some() => {
+                format!("`{path}` is {found} where a whole number is wanted")
+            }
             Mismatch::WrongType { found, wanted } => {
                 format!("`{path}` is {found} where {wanted} is wanted")
             }
@@ -134,7 +140,9 @@ impl TypeError {
             Mismatch::UnknownAlternative { found, accepted } => suggestion(found, accepted),
             Mismatch::MissingKey(key) => format!("add `{key} = ...` there"),
             Mismatch::WrongType { found, wanted } => {
-                if wanted.starts_with("an array") {
+                if let Some(value) = broken(self.mismatch()) {
+                    whole_example(value)
+                } else if wanted.starts_with("an array") {
                     array_example(found, wanted)
                 } else if wanted.contains("number")
                     && let Some(text) = found.strip_prefix("the string ")
@@ -153,47 +161,6 @@ impl TypeError {
             }
             Mismatch::Other(_, help) => help.clone(),
         }
-    }
-}
-
-/// How a number is written instead of a text.
-fn number_example(text: &str) -> String {
-    let is_number = |text: &str| text.trim().parse::<f64>().is_ok();
-    if text.matches(',').count() == 1 && is_number(&text.replace(',', ".")) {
-        return format!("write it with a decimal point: {}", text.replace(',', "."));
-    }
-    if text.contains(':') && text.split(':').take(2).all(is_number) {
-        return "one number; ranges are for `alewife sweep run`".to_owned();
-    }
-    let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)));
-    let (digits, unit) = text.split_at(end.unwrap_or(text.len()));
-    if !is_number(digits) {
-        return format!("\"{text}\" is no number");
-    }
-    if unit.is_empty() {
-        return format!("write it without quotes: {digits}");
-    }
-    format!("write the number without quotes and without its unit, in those of the case: {digits}")
-}
-
-/// How an array is written instead of what is there.
-fn array_example(found: &str, wanted: &str) -> String {
-    if let Some(text) = found.strip_prefix("the string ") {
-        return format!("write it in brackets: [{text}]");
-    }
-    let number = found.trim_matches('`');
-    match number.parse::<f64>() {
-        Ok(_) if wanted == "an array of 3 numbers" => {
-            format!("write three numbers in brackets, such as [{number}, 0.0, 0.0]")
-        }
-        Ok(_) => format!("write numbers in brackets: [x, y], such as [{number}, 0.0]"),
-        Err(_) if wanted == "an array of 4 numbers" => {
-            "write four numbers in brackets, with commas between them: [w, x, y, z]".to_owned()
-        }
-        Err(_) if wanted == "an array of 3 numbers" => {
-            "write three numbers in brackets, with commas between them: [x, y, z]".to_owned()
-        }
-        Err(_) => "write values in brackets, with commas between them: [x, y]".to_owned(),
     }
 }
 
@@ -334,6 +301,23 @@ mod tests {
             assert!(plain.starts_with("a whole number"), "{kind}: {plain}");
         }
         assert_eq!(plain(&"u8"), "a whole number from 0 to 255");
+    }
+
+    #[test]
+    fn a_number_with_a_point_is_told_the_whole_ones_beside_it() {
+        for (found, wanted, message, help) in [
+            ("`6.5`", "usize", "where a whole number is wanted", "write 6 or 7"),
+            ("`6.0`", "u8", "where a whole number is wanted", "write it without a point: 6"),
+            ("`1e300`", "u64", "where a whole number is wanted", "write a whole number, without"),
+            ("`-0.5`", "usize", "where a whole number is wanted", "write it without a point: 0"),
+            ("`-3`", "usize", "where a whole number of 0 or more is wanted", ""),
+        ] {
+            let mismatch = Mismatch::WrongType { found: found.to_owned(), wanted: plain(&wanted) };
+            let error = TypeError::new(mismatch).below("elements");
+            assert_eq!(error.message(), format!("`elements` is {found} {message}"));
+            assert!(error.help().starts_with(help), "{found}: {}", error.help());
+            assert!(!help.is_empty() || error.help().is_empty(), "{found}: {}", error.help());
+        }
     }
 
     #[test]
