@@ -42,6 +42,19 @@ fn readable(message: &str) -> String {
     text + rest
 }
 
+/// Two keys of which one has to be given.
+#[derive(Debug, Clone, Copy)]
+pub struct OneOf<'a> {
+    /// What they are of, such as "a rod".
+    pub what: &'a str,
+    /// Both.
+    pub names: [&'a str; 2],
+    /// Which of them are given.
+    pub given: [bool; 2],
+    /// What each of them is.
+    pub help: &'a str,
+}
+
 /// The diagnostics found so far.
 pub struct Findings<'a> {
     file: &'a CaseFile,
@@ -110,6 +123,25 @@ impl<'a> Findings<'a> {
     /// Adds a warning.
     pub fn warning(&mut self, key: &str, message: String, help: &str) {
         self.add(Severity::Warning, key, message, help);
+    }
+
+    /// Whether one of two keys is given, as has to be; that none or both are is reported.
+    pub fn one_of(&mut self, key: &str, of: &OneOf<'_>) -> bool {
+        let OneOf { what, names: [one, other], given, help } = of;
+        match given {
+            [true, true] => self.error(
+                key,
+                format!("{what} has both `{one}` and `{other}`"),
+                &format!("leave one of them out: {help}"),
+            ),
+            [false, false] => self.error(
+                key,
+                format!("{what} has neither `{one}` nor `{other}`"),
+                &format!("write one of them: {help}"),
+            ),
+            _ => return true,
+        }
+        false
     }
 
     /// Whether nothing is wrong with a key or what is in its table.

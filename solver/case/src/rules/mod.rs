@@ -30,7 +30,7 @@ pub use self::drive::at_rest;
 pub use self::reduced::check_reduced;
 
 use self::body::{bodies, joints, strokes, swimmers};
-use self::findings::Findings;
+use self::findings::{Findings, OneOf};
 use self::flow::{boundary, cells, fluid, mean_flow, mesh, scalars, tracers};
 use crate::{CaseFile, Diagnostic, Geometry, Severity};
 

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::joints::stroke;
 use super::midline;
 use super::skin::has_rate;
-use crate::rules::Findings;
 use crate::rules::flow::boundary::check_factor;
+use crate::rules::{Findings, OneOf};
 use crate::{
     AnguilliformGait, Body, CarangiformGait, FlagellumGait, GaitSpec, PulsatingGait, ShapeSpec,
     SquirmerGait, Stroke, TimeSettings,
@@ -144,12 +144,13 @@ fn flagellum(findings: &mut Findings<'_>, key: &str, body: &Body, gait: &Flagell
 }
 
 fn pulsating(findings: &mut Findings<'_>, key: &str, gait: &PulsatingGait) {
-    if gait.amplitude.is_some() != gait.table.is_empty() {
-        findings.error(
-            key,
-            "a pulsating body needs either an `amplitude` or a `table`".to_owned(),
-            "write amplitude = ... and period = ..., or table = [[0.0, 1.0], [time, ratio], ...]",
-        );
+    let of = OneOf {
+        what: "a pulsating body",
+        names: ["amplitude", "table"],
+        given: [gait.amplitude.is_some(), !gait.table.is_empty()],
+        help: "amplitude = ... goes with period = ..., table is [[0.0, 1.0], [time, ratio], ...]",
+    };
+    if !findings.one_of(key, &of) {
         return;
     }
     if gait.amplitude.is_some() {

@@ -1,6 +1,6 @@
 //! Problems of flows that are given on a side, each by itself: developed ones, and numbers at places.
 
-use crate::rules::Findings;
+use crate::rules::{Findings, OneOf};
 use crate::{BoundaryCondition, FlowModel, ProfileColumn, ProfileSpec};
 
 /// What a profile is made of.
@@ -17,13 +17,13 @@ pub fn check_given(findings: &mut Findings<'_>, key: &str, condition: &BoundaryC
 /// A developed flow has its flux or its largest velocity.
 fn check_developed(findings: &mut Findings<'_>, key: &str, condition: &BoundaryCondition) {
     let BoundaryCondition::Developed { flux, peak, .. } = condition else { return };
-    if flux.is_some() == peak.is_some() {
-        findings.error(
-            &format!("{key}.developed"),
-            "a developed flow has a `flux` or a `peak`, one of them".to_owned(),
-            "write { developed = { flux = ... } } (m3/s; m2/s planar) or { developed = { peak = ... } } (m/s)",
-        );
-    }
+    let of = OneOf {
+        what: "a developed flow",
+        names: ["flux", "peak"],
+        given: [flux.is_some(), peak.is_some()],
+        help: "{ developed = { flux = ... } } (m3/s; m2/s planar), or { developed = { peak = ... } } (m/s)",
+    };
+    findings.one_of(&format!("{key}.developed"), &of);
 }
 
 /// Its columns and rows.

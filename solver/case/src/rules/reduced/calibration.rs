@@ -1,7 +1,7 @@
 //! Problems of `[calibration]`, and of a calibrated file in a case it was not found for.
 
 use super::is_a_body;
-use crate::rules::Findings;
+use crate::rules::{Findings, OneOf};
 use crate::text::nearest::nearest;
 use crate::{
     CalibratedSpec, CalibrationSpec, FitBy, FitName, Geometry, Proposer, RecordSpec, TimeSettings,
@@ -227,10 +227,13 @@ fn of_run(findings: &mut Findings<'_>, key: &str, record: &RecordSpec) {
 }
 
 fn of_file(findings: &mut Findings<'_>, key: &str, record: &RecordSpec) {
-    if record.time.is_some() == record.rate.is_some() {
-        let message = "the times of a record are a column or a rate".to_owned();
-        findings.error(key, message, "write one of `time` and `rate`");
-    }
+    let of = OneOf {
+        what: "a record",
+        names: ["time", "rate"],
+        given: [record.time.is_some(), record.rate.is_some()],
+        help: "time = \"COLUMN\" has its times, rate = ... is how many rows there are in a second",
+    };
+    findings.one_of(key, &of);
     if record.start.is_some_and(|start| !(start.is_finite() && start > 0.0)) {
         let message = "the start is not above 0".to_owned();
         findings.error(&format!("{key}.start"), message, "write a time of the model (s)");

@@ -1,8 +1,8 @@
 //! Problems of `activation`, and of strokes that move rods: rates that jump, bends that fold, waves of what is not known.
 
 use super::slender::{Slender, rises_along, too_sharp};
-use crate::rules::Findings;
 use crate::rules::body::joints::stroke as numbers_of_stroke;
+use crate::rules::{Findings, OneOf};
 use crate::{Activation, Stroke, TimeSettings};
 
 /// Part of the run that is rounding.
@@ -10,14 +10,16 @@ const ROUNDING: f64 = 1e-9;
 
 /// Numbers of an activation.
 pub fn check(findings: &mut Findings<'_>, key: &str, active: &Activation, body: Slender) {
-    let bends = active.curvature.is_some() || active.curvature_y.is_some();
-    if bends == (active.moment.is_some() || active.moment_y.is_some()) {
-        findings.error(
-            key,
-            "an activation is either a `curvature` or a `moment`".to_owned(),
-            "write curvature = ... (1/m), or moment = ... (N m; N planar)",
-        );
-    }
+    let of = OneOf {
+        what: "an activation",
+        names: ["curvature", "moment"],
+        given: [
+            active.curvature.is_some() || active.curvature_y.is_some(),
+            active.moment.is_some() || active.moment_y.is_some(),
+        ],
+        help: "curvature = ... (1/m) is what the rod would have at rest, moment = ... (N m; N planar) what bends it",
+    };
+    findings.one_of(key, &of);
     if !active.envelope.is_empty() {
         rises_along(findings, &format!("{key}.envelope"), &active.envelope, body);
     }

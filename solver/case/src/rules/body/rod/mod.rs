@@ -11,7 +11,7 @@ use self::slender::{Slender, rises_along, too_sharp};
 use alewife_mesh::whole;
 use nalgebra::{Rotation3, Vector3};
 
-use crate::rules::Findings;
+use crate::rules::{Findings, OneOf};
 use crate::{AlongBody, Body, Hold, RestShape, RodSpec};
 
 pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
@@ -65,13 +65,14 @@ fn without_rod(findings: &mut Findings<'_>, key: &str, body: &Body) {
 }
 
 fn stiffness(findings: &mut Findings<'_>, key: &str, rod: &RodSpec, body: Slender) {
-    if rod.bending.is_some() == rod.young.is_some() {
-        findings.error(
-            key,
-            "a rod needs either `bending` or `young`".to_owned(),
-            "write bending = ... (N m2; N m planar), or young = ... (Pa)",
-        );
-    }
+    let of = OneOf {
+        what: "a rod",
+        names: ["bending", "young"],
+        given: [rod.bending.is_some(), rod.young.is_some()],
+        help: "bending = ... (N m2; N m planar) is the stiffness of its sections, young = ... (Pa) that of its \
+               material",
+    };
+    findings.one_of(key, &of);
     for (name, given) in [("bending", &rod.bending), ("twisting", &rod.twisting)] {
         let Some(AlongBody::Table(rows)) = given else { continue };
         let key = format!("{key}.{name}");

@@ -62,6 +62,25 @@ fn rods_of_all_kinds_have_no_errors() {
 }
 
 #[test]
+fn of_two_keys_that_exclude_each_other_both_and_none_are_told_apart() {
+    for (lines, wanted) in [
+        ("rod = {}", "a rod has neither `bending` nor `young`"),
+        ("rod = { bending = 1.0, young = 1.0 }", "a rod has both `bending` and `young`"),
+        (
+            "rod.bending = 1.0\nactivation = { moment.constant = 1.0, curvature.constant = 1.0 }",
+            "an activation has both `curvature` and `moment`",
+        ),
+    ] {
+        let file = Case::parse("t.toml", &case_with(&fish(lines)), &[]).unwrap();
+        let found = check(&file).into_iter().find(|one| one.severity == Severity::Error).unwrap();
+        assert_eq!(found.message, wanted);
+        let verb =
+            if wanted.contains("both") { "leave one of them out: " } else { "write one of them: " };
+        assert!(found.help.starts_with(verb), "{}", found.help);
+    }
+}
+
+#[test]
 fn what_makes_no_rod_is_refused_at_its_key() {
     let rod = |lines: &str| fish(&format!("rod.bending = 1.0\n{lines}"));
     let cases = [
