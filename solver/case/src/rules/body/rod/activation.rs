@@ -30,7 +30,8 @@ pub fn check(findings: &mut Findings<'_>, key: &str, active: &Activation, body: 
         ("moment_y", &active.moment_y),
     ] {
         let Some(given) = given else { continue };
-        stroke(findings, &format!("{key}.{name}"), given);
+        // What bends from within may jump, at the start as later: moments stay finite
+        numbers_of_stroke(findings, &format!("{key}.{name}"), given);
         if let Some(speed) = active.wave_speed {
             is_known_along(findings, key, name, given, body.length / speed);
         }
@@ -42,13 +43,13 @@ pub fn check(findings: &mut Findings<'_>, key: &str, active: &Activation, body: 
     }
 }
 
-/// A stroke that moves a rod.
-pub fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
+/// A stroke by which the end of a rod is moved.
+pub fn moved(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
     numbers_of_stroke(findings, key, stroke);
     has_rate(findings, key, stroke);
 }
 
-/// Rates that jump would need infinite loads of a body with mass.
+/// Rates of a motion that jump would need infinite loads of a body with mass.
 fn has_rate(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
     let name = match stroke {
         Stroke::Table(_) => "a `table`",
@@ -57,7 +58,7 @@ fn has_rate(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
     };
     findings.error(
         key,
-        format!("the rate of {name} jumps, and a rod cannot follow that"),
+        format!("the rate of {name} jumps, and a rod that is held by it cannot follow that"),
         "write a `sine`, a `file`, or `legs` with smooth = true",
     );
 }

@@ -42,7 +42,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     if let Some(attached) = &body.attached {
         attached::check(findings, &format!("{key}.attached"), body, attached, body_of.length);
         if let Hold::Angle(angle) = &attached.hold {
-            activation::stroke(findings, &format!("{key}.attached.hold.angle"), angle);
+            activation::moved(findings, &format!("{key}.attached.hold.angle"), angle);
         }
     }
     if let Some(active) = &body.activation {
