@@ -31,6 +31,18 @@ pub fn read_for_flow(argument: &str, settings: &[String]) -> Result<CheckedCase,
     if missing.is_empty() { Ok(checked) } else { Err(Failure::wrong(&missing)) }
 }
 
+/// Refuses a case without rigid bodies and without a flow, with what is done with it.
+pub fn refuse_soft(argument: &str, settings: &[String]) -> Result<(), Failure> {
+    if SoftFile::read_if_soft(argument, settings)?.is_none() {
+        return Ok(());
+    }
+    let message = format!(
+        "{argument} is a soft case, an elastic body without a flow: use run --fidelity soft, sweep, check, \
+         show, mesh, calibrate, optimise or loop"
+    );
+    Err(Failure::new(Exit::BadCase, message))
+}
+
 /// Prints what is odd in a case.
 pub fn print_warnings(warnings: &[Diagnostic]) {
     if !warnings.is_empty() {
@@ -54,13 +66,7 @@ pub struct CheckedCase {
 
 /// Reads a case and refuses it if it is wrong; warnings are handed back.
 pub fn read_and_check(argument: &str, settings: &[String]) -> Result<CheckedCase, Failure> {
-    if SoftFile::read_if_soft(argument, settings)?.is_some() {
-        let message = format!(
-            "{argument} is a soft case, an elastic body without a flow: use run --fidelity soft, sweep, \
-             check, show, mesh, calibrate, optimise or loop"
-        );
-        return Err(Failure::new(Exit::Usage, message));
-    }
+    refuse_soft(argument, settings)?;
     let file = crate::case::Case::read(argument, settings)?;
     let mut warnings = check(&file);
     if warnings.iter().any(|one| one.severity == Severity::Error) {

@@ -184,7 +184,7 @@ fn soft_cases_and_flows_are_not_taken_for_each_other() {
     let at = directory.path();
     fs::write(at.join("bar.toml"), BAR).unwrap();
     let flow = ["run", "bar.toml", "--fidelity", "ale"];
-    assert!(refused(at, &flow, 2).contains("--fidelity soft"));
+    assert!(refused(at, &flow, 65).contains("--fidelity soft"));
     assert!(refused(at, &["run", "dfg-2d-1", "--fidelity", "soft"], 65).contains("[soft]"));
     assert!(
         refused(at, &["run", "bar.toml", "--fidelity", "soft", "--live"], 2).contains("--live")

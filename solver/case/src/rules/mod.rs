@@ -104,7 +104,9 @@ pub fn check_flow(file: &CaseFile) -> Vec<Diagnostic> {
         severity: Severity::Error,
         key: (*name).to_owned(),
         message: format!("`{name}` is missing, and the full solver needs it"),
-        help: format!("add [{name}], or run the reduced model: --fidelity reduced"),
+        help: format!(
+            "add [{name}], or have the reduced model run: alewife run CASE --fidelity reduced"
+        ),
         location: file.location(""),
     };
     file.case().left_out.iter().map(missing).collect()

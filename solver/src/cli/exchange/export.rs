@@ -4,11 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
-use crate::case::soft::SoftFile;
 use crate::case::{Case, Severity, check, check_reduced};
 use crate::cli::complete;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::read::{Settings, print_warnings};
+use crate::cli::read::{Settings, print_warnings, refuse_soft};
 use crate::cli::style::say;
 use crate::observer::write_atomic;
 use crate::reduced::{self, Exported, RobotFormat};
@@ -50,10 +49,7 @@ pub fn export(options: &ExportOptions) -> Result<Exit, Failure> {
         }
     };
     let (case, settings) = (&options.case, &options.settings.set);
-    if SoftFile::read_if_soft(case, settings)?.is_some() {
-        let message = format!("{case} is a soft case: it has no rigid bodies to be written");
-        return Err(Failure::new(Exit::Usage, message));
-    }
+    refuse_soft(case, settings)?;
     let file = Case::read(case, settings)?;
     let found = check(&file);
     for found in [&found, &check_reduced(&file)] {

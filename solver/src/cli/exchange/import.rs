@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 
-use crate::case::{Case, Severity, check, check_reduced};
+use crate::case::{Case, Diagnostic, Severity, check, check_reduced};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::print_warnings;
 use crate::cli::style::say;
@@ -57,7 +57,9 @@ pub fn import(options: &ImportOptions) -> Result<Exit, Failure> {
         .map_err(|remark| Failure::new(Exit::BadCase, place(&remark)))?;
     let file = Case::parse(&out.display().to_string(), &text, &[])?;
     let mut found = check(&file);
-    found.extend(check_reduced(&file).into_iter().filter(|one| one.severity == Severity::Error));
+    let is_new = |one: &Diagnostic| one.severity == Severity::Error && !found.contains(one);
+    let more: Vec<Diagnostic> = check_reduced(&file).into_iter().filter(is_new).collect();
+    found.extend(more);
     if found.iter().any(|one| one.severity == Severity::Error) {
         return Err(Failure::wrong(&found));
     }

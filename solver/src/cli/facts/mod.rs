@@ -29,7 +29,12 @@ pub fn facts(file: &CaseFile) -> String {
         format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units.to_string()));
     line("geometry", units);
     line("fluid", fluid(case));
-    if case.is_reduced_only() {
+    if let [missing] = &case.left_out[..] {
+        let value = format!(
+            "`{missing}` is left out, which the full solver needs; --fidelity reduced runs the case"
+        );
+        line("domain", value);
+    } else if case.is_reduced_only() {
         line("domain", "none: it runs by its reduced model".to_owned());
     } else {
         line("domain", domain(case));

@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::print_comparisons;
 use crate::case::{Case, CaseFile, Severity, TimeSettings, check, check_reduced, significant};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::read::print_warnings;
+use crate::cli::read::{print_warnings, refuse_soft};
 use crate::cli::soft::{hold, not_written};
 use crate::cli::style::say;
 use crate::observer::{Motion, MotionRecord, RunLock, Status, remove_if_there, write_atomic};
@@ -40,6 +40,7 @@ pub fn run(request: &Request<'_>) -> Result<Exit, Failure> {
         let message = format!("--{option} is for the full solver; leave it out, or --fidelity ale");
         return Err(Failure::new(Exit::Usage, message));
     }
+    refuse_soft(request.case, request.settings)?;
     let file = Case::read(request.case, request.settings)?;
     let found = check(&file);
     if found.iter().any(|one| one.severity == Severity::Error) {
