@@ -297,3 +297,21 @@ fn a_key_given_twice_is_to_be_given_once() {
         &["duplicate key", "keep one of the two"],
     );
 }
+
+/// Coefficients of a calibration that are wrong are told where they stand, whoever names their file.
+#[test]
+fn what_is_wrong_in_a_calibrated_file_is_told_at_its_line() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("found.toml");
+    let text = "reduced.loads = 'links'\n[calibrated]\nbodies = []\n[reduced.coefficients]\nadded_mass = -1.0\n";
+    std::fs::write(&path, text).unwrap();
+    let settings = [
+        "reduced.loads='links'".to_owned(),
+        format!("reduced.calibrated.file='{}'", path.display()),
+    ];
+    let file = alewife::case::Case::read("robot-eel", &settings).unwrap();
+    let found = alewife::case::check(&file);
+    let found = found.iter().find(|one| one.key == "reduced.coefficients.added_mass").unwrap();
+    let at = found.location.clone().unwrap();
+    assert_eq!((at.file, at.line), (path.display().to_string(), 5), "{}", found.message);
+}

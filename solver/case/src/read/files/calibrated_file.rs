@@ -155,12 +155,12 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
         origin: origin.clone(),
         value: TomlValue::Table(BTreeMap::default()),
     };
-    fill(reduced.entry("coefficients".to_owned()).or_insert_with(empty), coefficients, &origin);
+    fill(reduced.entry("coefficients".to_owned()).or_insert_with(empty), coefficients);
     if !bodies.is_empty() {
         let all = reduced.entry("body".to_owned()).or_insert_with(empty);
         for (body, own) in bodies {
             if let Some(all) = all.table_mut() {
-                fill(all.entry(body).or_insert_with(empty), own, &origin);
+                fill(all.entry(body).or_insert_with(empty), own);
             }
         }
     }
@@ -176,11 +176,10 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), TreeError> {
     Ok(())
 }
 
-/// Puts values into a table that has none of their names.
-fn fill(table: &mut TomlNode, found: Entries, origin: &Origin) {
+/// Puts values into a table that has none of their names; what is wrong with one is told where the file has it.
+fn fill(table: &mut TomlNode, found: Entries) {
     if let Some(own) = table.table_mut() {
-        for (name, mut value) in found {
-            (value.key, value.origin) = (origin.clone(), origin.clone());
+        for (name, value) in found {
             own.entry(name).or_insert(value);
         }
     }
