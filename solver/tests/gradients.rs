@@ -50,6 +50,7 @@ fn what_has_no_gradient_is_told_with_what_has_one() {
         assert!(said.contains(wanted), "{said}");
     };
     refused("ball.forcex", "fluid.viscosity", "do you mean `ball.force.x`?");
+    refused("flow.dissipation", "fluid.viscosity", "is a quantity of the case, and its gradient");
     refused("ball.force.x", "fluid.viscosty", "do you mean `fluid.viscosity`?");
     refused("ball.force.x", "mesh.size", "ball.toml:7:");
 }

@@ -7,7 +7,9 @@ use super::complete;
 use super::exit::{Exit, Failure};
 use super::read::{Settings, read_case};
 use super::style::{Ink, on_stdout, say};
-use crate::case::{Case, CaseFile, printable};
+use crate::case::{
+    Case, CaseFile, differentiable_columns, known_quantities, no_gradient_in_time, printable,
+};
 use crate::gradient::{Derivatives, GradientError, GradientTask, gradients};
 use crate::runner::with_key;
 
@@ -61,6 +63,7 @@ pub fn gradient(options: &Options) -> Result<Exit, Failure> {
         Case::read(&options.case, &settings)
     };
     let Options { of, by, check, .. } = options;
+    of.iter().try_for_each(|quantity| has_gradient(&file, quantity))?;
     let task = GradientTask { read: &read, of, by, checks: *check };
     let found = gradients(&task).map_err(|error| failure(&file, error))?;
     let numbers: Vec<f64> = by.iter().map(|key| file.number(key).unwrap_or(1.0)).collect();
@@ -76,6 +79,23 @@ pub fn gradient(options: &Options) -> Result<Exit, Failure> {
     let errors = tables.iter().flatten().filter_map(|row| row.error);
     let is_within = errors.fold(0.0, f64::max) <= TOLERANCE;
     Ok(if is_within { Exit::Done } else { Exit::OutsideTolerance })
+}
+
+/// Refuses a quantity that the case has and whose gradient is not known; one that it has not is told of with what is near it.
+fn has_gradient(file: &CaseFile, quantity: &str) -> Result<(), Failure> {
+    let known = differentiable_columns(&file.model);
+    let is_known = known.iter().any(|column| column.name == quantity);
+    let is_there = known_quantities(&file.model).iter().any(|name| name == quantity);
+    if is_known || !is_there || no_gradient_in_time(file.case()).is_some() {
+        return Ok(());
+    }
+    let names: Vec<&str> = known.iter().map(|column| column.name.as_str()).collect();
+    let message = format!(
+        "`{}` is a quantity of the case, and its gradient is not known\n = gradients are those of {}",
+        printable(quantity),
+        names.join(", ")
+    );
+    Err(Failure::new(Exit::BadCase, message))
 }
 
 fn rows<'a>(of: &Derivatives, keys: &'a [String], numbers: &[f64]) -> Vec<Row<'a>> {
