@@ -317,6 +317,8 @@ impl<'a> Builder<'a> {
         if let Some(told) = self.serve(child, &mut hung.joint) {
             hung.told = told;
         }
+        let rotor = self.spec.armature.get(&model.bodies[child].name);
+        hung.joint.armature = rotor.copied().unwrap_or_default();
         let start = match &hung.told {
             Told::Given(stroke) => stroke.at(0.0)[0],
             _ if hung.joint.kind == Kind::Slider => {

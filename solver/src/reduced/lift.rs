@@ -36,6 +36,7 @@ fn joint<T: Number>(joint: &Joint<f64>) -> Joint<T> {
         stiffness: real(joint.stiffness),
         rest: real(joint.rest),
         damping: real(joint.damping),
+        armature: real(joint.armature),
         stops,
     }
 }

@@ -176,6 +176,7 @@ impl<T: Number> Equations<T> {
         command: &Command<T>,
     ) {
         let n = self.forces.len();
+        self.matrix[velocity * n + velocity] += joint.armature;
         let rate = state.velocities[velocity];
         let place = state.coordinates[velocity] + stage.shift[velocity];
         let (mut stiffness, mut damping) = (joint.stiffness, joint.damping);

@@ -63,6 +63,9 @@ pub struct Joint<T: Number> {
     pub rest: T,
     /// Effort per rate (N m s/rad, N s/m).
     pub damping: T,
+    /// Effort per acceleration of its coordinate, besides that of the links: of the rotor of a geared motor its moment
+    /// of inertia times the square of the gear (kg m2, kg).
+    pub armature: T,
     /// Ends of its way, if there are any.
     pub stops: Option<Stops<T>>,
 }
@@ -79,6 +82,7 @@ impl<T: Number> Joint<T> {
             stiffness: zero,
             rest: zero,
             damping: zero,
+            armature: zero,
             stops: None,
         }
     }

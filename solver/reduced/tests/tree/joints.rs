@@ -100,6 +100,43 @@ fn a_sprung_rail_follows_the_damped_oscillator_at_the_order_of_the_stepper() {
     }
 }
 
+/// A rotor that turns a hinge by a gear adds its moment times the square of the gear to that of the link: the period of the
+/// spring is 2 pi sqrt((I + A) / k), and the effort of a joint that is given (I + A) times its acceleration.
+#[test]
+fn what_turns_with_a_joint_alone_counts_for_its_coordinate() {
+    let (inertia, armature, stiffness) = (1.5, 0.7, 18.0);
+    let hinge = |drive, armature| Joint {
+        stiffness,
+        armature,
+        drive,
+        ..Joint::new(JointKind::Hinge, [0.0, 0.0, 1.0])
+    };
+    let tree = |drive, armature| {
+        let body = Symmetric::rigid(2.0, vector([1.0, 1.0, inertia]));
+        let links = vec![Link::root(massless()), Link::new(0, hinge(drive, armature), body)];
+        Tree::new(Root::Held, links).expect("a tree")
+    };
+    let rate = (stiffness / (inertia + armature)).sqrt();
+    let wrong = [200, 400].map(|n| {
+        let end = advance(&tree(Drive::Effort, armature), Scheme::Midpoint, [0.7, 0.0], n, 2.0);
+        (end[0] - 0.7 * (rate * 2.0).cos()).abs()
+    });
+    assert!(((wrong[0] / wrong[1]).log2() - 2.0).abs() < 0.1 && wrong[1] < 1e-2, "{wrong:?}");
+    // What a motor has to give more because of the rotor, for a rate that grows by 3 a second
+    let effort = |armature| {
+        let (tree, command) = (tree(Drive::Rate, armature), |time: f64, _: usize| Command {
+            rate: 3.0 * time,
+            ..Command::none()
+        });
+        let mut state = tree.rest();
+        let mut stepper = Stepper::new(&tree, Scheme::Euler);
+        stepper.step(&tree, &mut state, 1e-3, &command).expect("it moves");
+        state.efforts[0]
+    };
+    let more = effort(armature) - effort(0.0);
+    assert!((more - 3.0 * armature).abs() < 1e-9, "{more}");
+}
+
 #[test]
 fn a_stop_holds_and_a_servo_reaches_its_rate_within_its_limit() {
     let stops = Stops { lower: -1.0, upper: 0.1, stiffness: 1e6, damping: 2e3 };

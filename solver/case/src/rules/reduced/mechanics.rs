@@ -11,12 +11,13 @@ pub fn check(findings: &mut Findings<'_>, spec: &ReducedSpec) {
     for (name, is_there) in [
         ("tendon", !spec.tendon.is_empty()),
         ("servo", !spec.servo.is_empty()),
+        ("armature", !spec.armature.is_empty()),
         ("keel", spec.keel.is_some()),
     ] {
         if is_there && is_slow {
             findings.error(
                 &format!("reduced.{name}"),
-                format!("a {name} needs a fluid with inertia"),
+                format!("`{name}` needs a fluid with inertia"),
                 "leave it out, or take fluid.model = \"navier-stokes\"",
             );
         }
@@ -36,6 +37,16 @@ pub fn check(findings: &mut Findings<'_>, spec: &ReducedSpec) {
             findings.error(&format!("{key}.joint"), message, "leave one out");
         }
         check_servo(findings, &key, servo);
+    }
+    for (name, value) in &spec.armature {
+        let key = format!("reduced.armature.{name}");
+        amount(findings, &key, *value, true);
+        let joint = findings.model().joints.iter().find(|joint| joint.child == *name);
+        if !joint.is_some_and(|joint| moves_freely(&joint.kind)) {
+            let message = format!("\"{name}\" is not below a hinge or a slider");
+            let help = below_free_joints(findings);
+            findings.error(&key, message, &help);
+        }
     }
     keel(findings, spec);
     ellipsoids(findings, spec);
@@ -83,16 +94,22 @@ fn check_servo(findings: &mut Findings<'_>, key: &str, servo: &ServoSpec) {
         _ => false,
     });
     if !is_free {
-        let joints = &findings.model().joints;
-        let turns = |kind: &JointKind| matches!(kind, JointKind::Hinge(_) | JointKind::Slider(_));
-        let children = joints.iter().filter(|joint| turns(&joint.kind));
-        let names: Vec<&str> = children.map(|joint| joint.child.as_str()).collect();
-        findings.error(
-            &format!("{key}.joint"),
-            format!("\"{}\" is not below a hinge or a slider without a motor", servo.joint),
-            &format!("bodies below hinges and sliders: {}", names.join(", ")),
-        );
+        let message =
+            format!("\"{}\" is not below a hinge or a slider without a motor", servo.joint);
+        let help = below_free_joints(findings);
+        findings.error(&format!("{key}.joint"), message, &help);
     }
+}
+
+fn moves_freely(kind: &JointKind) -> bool {
+    matches!(kind, JointKind::Hinge(_) | JointKind::Slider(_))
+}
+
+/// The bodies that joints with a coordinate of their own are named by.
+fn below_free_joints(findings: &Findings<'_>) -> String {
+    let joints = findings.model().joints.iter().filter(|joint| moves_freely(&joint.kind));
+    let names: Vec<&str> = joints.map(|joint| joint.child.as_str()).collect();
+    format!("bodies below hinges and sliders: {}", names.join(", "))
 }
 
 fn keel(findings: &mut Findings<'_>, spec: &ReducedSpec) {

@@ -14,7 +14,7 @@ use self::law::{Coefficient, LoadLaw};
 use self::mechanics::{EllipsoidSpec, KeelSpec, ServoSpec, TendonSpec};
 use self::parts::{BuoyancySpec, CalibratedSpec, ConnectionSpec, ThrusterSpec};
 #[cfg(test)]
-use crate::spec::number::Positive;
+use crate::spec::number::{NonNegative, Positive};
 
 /// `[reduced]`: the reduced model of a swimmer, for runs with `--fidelity reduced`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -51,6 +51,11 @@ pub struct ReducedSpec {
     /// Motors that bring joints to a rate.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub servo: Vec<ServoSpec>,
+    /// Inertia of what turns with a joint alone, such as the rotor of its motor times the square of the gear, by the name of
+    /// the body below the joint, a `hinge` (kg m2; kg m planar) or a `slider` (kg; kg/m).
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, NonNegative>"))]
+    pub armature: BTreeMap<String, f64>,
     /// What keeps the first body level in space.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keel: Option<KeelSpec>,
@@ -104,6 +109,7 @@ impl ReducedSpec {
             thruster: Vec::new(),
             tendon: Vec::new(),
             servo: Vec::new(),
+            armature: BTreeMap::new(),
             keel: None,
             ellipsoid: Vec::new(),
             connection: None,
