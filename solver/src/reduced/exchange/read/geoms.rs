@@ -89,7 +89,11 @@ fn coefficients(element: &Element<'_, '_, '_>) -> Read<[f64; 5]> {
     let own = element.numbers("fluidcoef")?.unwrap_or_default();
     if own.len() > COEFFICIENTS.len() || own.iter().any(|one| *one < 0.0) {
         let help = "up to five numbers of 0 or more: blunt, slender, angular, Kutta, Magnus";
-        return refuse(element.node, "`fluidcoef` is wrong", help);
+        let what = match own.iter().find(|one| **one < 0.0) {
+            Some(one) => format!("`fluidcoef` has {one}"),
+            None => format!("`fluidcoef` has {} numbers", own.len()),
+        };
+        return refuse(element.node, what, help);
     }
     let mut coefficients = COEFFICIENTS;
     coefficients[..own.len()].copy_from_slice(&own);
@@ -116,8 +120,14 @@ fn solid(element: &Element<'_, '_, '_>, kind: &str, ends: Option<&[f64; 6]>) -> 
         _ => 3,
     };
     if size.len() < n || size[..n].iter().any(|one| *one <= 0.0) {
-        let what = format!("`size` of a {kind} has {n} numbers above 0");
-        return refuse(node, what, "half lengths (m), with `fromto` those across it");
+        let what = match size.iter().find(|one| **one <= 0.0) {
+            Some(one) => format!("`size` of the {kind} has a {one}"),
+            None => format!("`size` of the {kind} has {} of {n} numbers", size.len()),
+        };
+        let numbers = if n == 1 { "1 number".to_owned() } else { format!("{n} numbers") };
+        let help =
+            format!("{numbers} above 0, half lengths (m); with `fromto` only those across it");
+        return refuse(node, what, help);
     }
     Ok(match kind {
         "sphere" => Solid::Ellipsoid(Vector3::repeat(size[0])),

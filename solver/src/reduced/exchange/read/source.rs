@@ -98,8 +98,9 @@ pub(super) fn exactly<const N: usize>(
     match <[f64; N]>::try_from(values) {
         Ok(values) => Ok(values),
         Err(_) => {
-            let what = format!("`{name}` has {n} numbers");
-            refuse(node, what, format!("`{name}` has {N}"))
+            let numbers = |n: usize| format!("{n} number{}", if n == 1 { "" } else { "s" });
+            let what = format!("`{name}` has {}", numbers(n));
+            refuse(node, what, format!("{} with spaces between them", numbers(N)))
         }
     }
 }
