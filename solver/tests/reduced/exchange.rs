@@ -145,6 +145,10 @@ fn a_written_model_of_mujoco_becomes_a_case_that_runs() {
     ] {
         assert!(notes.iter().any(|one| one == note), "{note}\n{notes:#?}");
     }
+    let geared = WRITTEN.replace("ref=\"10\"", "ref=\"10\" armature=\"0.25\"");
+    let geared = imported(&geared, &[]);
+    assert_eq!(geared.case().reduced_model().armature["tail-2"], 0.25);
+    assert!(exported(&geared, RobotFormat::Mjcf).contains("armature=\"0.25\""));
     let damped = WRITTEN.replace("<freejoint/>", "<joint type='free' damping='0.1' armature='0'/>");
     let notes = import(&damped, "swimmer.xml").unwrap().notes;
     assert!(notes.iter().any(|one| one.to_string() == "11: <joint>: its `damping` is left out"));

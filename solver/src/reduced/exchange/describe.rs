@@ -174,6 +174,7 @@ impl Making<'_> {
                 stiffness: 0.0,
                 rest: 0.0,
                 damping: 0.0,
+                armature: 0.0,
                 start: [0.0, rate],
                 from: 0.0,
             });
@@ -203,6 +204,7 @@ impl Making<'_> {
                 stiffness: joint.stiffness,
                 rest: joint.rest,
                 damping: joint.damping,
+                armature: joint.armature,
                 start: [start.coordinates[velocity], start.velocities[velocity]],
                 from: 0.0,
             });

@@ -111,7 +111,8 @@ fn put_joint(joint: &RobotJoint, out: &mut Markup) {
         .numbers("axis", joint.axis.as_slice())
         .unless_zero("stiffness", joint.stiffness)
         .unless_zero("springref", joint.rest)
-        .unless_zero("damping", joint.damping);
+        .unless_zero("damping", joint.damping)
+        .unless_zero("armature", joint.armature);
     out.put(&element);
 }
 

@@ -73,6 +73,8 @@ pub(super) struct RobotJoint {
     pub rest: f64,
     /// Effort per rate (N m s/rad, N s/m).
     pub damping: f64,
+    /// Effort per acceleration, of what turns with it alone (kg m2, kg).
+    pub armature: f64,
     /// Coordinate and rate at the start.
     pub start: [f64; 2],
     /// What a file calls its coordinate where it is zero here.

@@ -35,9 +35,13 @@ pub(super) fn missing(robot: &Robot) -> Vec<String> {
     let joints = || robot.bodies.iter().flat_map(|body| &body.joints);
     let sprung: Vec<&str> =
         joints().filter(|joint| joint.stiffness != 0.0).map(|joint| joint.name.as_str()).collect();
+    let geared: Vec<&str> =
+        joints().filter(|joint| joint.armature != 0.0).map(|joint| joint.name.as_str()).collect();
     let motors: Vec<&str> = robot.motors.iter().map(|motor| motor.name.as_str()).collect();
     let tendons: Vec<&str> = robot.tendons.iter().map(|tendon| tendon.name.as_str()).collect();
-    for (what, names) in [("springs", sprung), ("motors", motors), ("tendons", tendons)] {
+    for (what, names) in
+        [("springs", sprung), ("armature", geared), ("motors", motors), ("tendons", tendons)]
+    {
         if !names.is_empty() {
             notes.push(format!("URDF has no {what}: left out are {}", names.join(", ")));
         }

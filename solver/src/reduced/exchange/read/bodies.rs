@@ -192,6 +192,7 @@ impl<'a, 'i> Bodies<'_, 'a, 'i> {
             stiffness: element.number("stiffness", 0.0)?,
             rest: element.number("springref", 0.0)? * angle - from,
             damping: element.number("damping", 0.0)?,
+            armature: armature(element)?,
             start: [0.0; 2],
             from,
         });
@@ -215,12 +216,21 @@ impl<'a, 'i> Bodies<'_, 'a, 'i> {
         if is_limited {
             self.notes.push(remark(element.node, "its limits are left out"));
         }
-        self.inert(element, &["armature", "frictionloss"])?;
+        self.inert(element, &["frictionloss"])?;
         if element.text("actuatorfrcrange").is_some() {
             self.notes.push(remark(element.node, "its `actuatorfrcrange` is left out"));
         }
         Ok(())
     }
+}
+
+/// Inertia of what turns with a joint alone.
+fn armature(element: &Element<'_, '_, '_>) -> Read<f64> {
+    let found = element.number("armature", 0.0)?;
+    if found < 0.0 {
+        return refuse(element.node, format!("`armature` is {found}"), "a number of 0 or more");
+    }
+    Ok(found)
 }
 
 /// Mass, centre and moments as they are written.

@@ -315,6 +315,18 @@ impl Text<'_> {
         if !servos.is_empty() {
             self.line(&format!("servo = [\n{}\n]", servos.join("\n")));
         }
+        if self.keel.is_none() {
+            self.armature(0);
+        }
+        (1..self.robot.bodies.len()).for_each(|body| self.armature(body));
+    }
+
+    /// What turns with the joint of a body alone.
+    fn armature(&mut self, number: usize) {
+        let body = &self.robot.bodies[number];
+        if let Some(joint) = body.joints.first().filter(|joint| joint.armature != 0.0) {
+            self.line(&format!("armature.{} = {}", body.name, float(joint.armature)));
+        }
     }
 
     /// What lifts bodies where they have weight.

@@ -218,6 +218,7 @@ impl<'a, 'i> File<'a, 'i> {
             stiffness: 0.0,
             rest: 0.0,
             damping: of_dynamics("damping")?,
+            armature: 0.0,
             start: [0.0; 2],
             from: 0.0,
         });
