@@ -6,8 +6,8 @@ use alewife_reduced::tree::{JointKind, Pose, rotation};
 use nalgebra::{Rotation3, UnitQuaternion, UnitVector3, Vector3};
 
 use super::driven::{Drive, drives};
-use super::keel::keel_of;
 use super::mass::Mass;
+use super::keel::keel_of;
 use super::source::Remark;
 use super::words::{Names, float, list, plain, quaternion, quoted};
 use crate::case::KeelSpec;
@@ -23,6 +23,9 @@ const NONE: f64 = 1e-30;
 
 /// End of the motion (s), which no model has.
 const END: f64 = 1.0;
+
+/// What stands before the line of a joint on command, in place of which the next line keeps what the motor starts with.
+const ON_COMMAND: &str = "# ";
 
 /// Text in the making.
 struct Text<'a> {
@@ -220,7 +223,14 @@ impl Text<'_> {
         if joint.position != Vector3::zeros() {
             self.line(&format!("on_child = {}", list(joint.position.as_slice())));
         }
-        self.line(&format!("kind.{name} = {{ {kind} }}"));
+        let [constant, command] = self.effort(number, joint).unwrap_or_default();
+        if !command.is_empty() {
+            self.line(
+                "# The effort its motors start with; on command of a session or an environment:",
+            );
+            self.line(&format!("{ON_COMMAND}kind.{name} = {{ {kind}{command} }}"));
+        }
+        self.line(&format!("kind.{name} = {{ {kind}{constant} }}"));
     }
 
     /// What a joint lets a body do, whose coordinate counts from a place.
@@ -243,16 +253,20 @@ impl Text<'_> {
         if damping != 0.0 {
             let _ = write!(kind, ", damping = {}", float(damping));
         }
-        if let Some(effort) = drive.effort {
-            let name = if joint.kind == JointKind::Slider { "force" } else { "torque" };
-            let limits = effort
-                .limits
-                .map_or_else(String::new, |ends| format!(", limits = {}", list(&ends)));
-            let (start, filter) = (float(effort.start), float(self.robot.step));
-            let _ =
-                write!(kind, ", {name}.command = {{ start = {start}{limits}, filter = {filter} }}");
-        }
         kind
+    }
+
+    /// The effort that a motor starts with, which it keeps, and the same on command.
+    fn effort(&self, number: usize, joint: &RobotJoint) -> Option<[String; 2]> {
+        let effort = self.drives[number].effort?;
+        let name = if joint.kind == JointKind::Slider { "force" } else { "torque" };
+        let limits =
+            effort.limits.map_or_else(String::new, |ends| format!(", limits = {}", list(&ends)));
+        let (start, filter) = (float(effort.start), float(self.robot.step));
+        Some([
+            format!(", {name}.constant = {start}"),
+            format!(", {name}.command = {{ start = {start}{limits}, filter = {filter} }}"),
+        ])
     }
 
     fn note(&mut self, what: String) {
