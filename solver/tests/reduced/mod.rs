@@ -9,6 +9,7 @@ mod guided;
 mod mutations;
 pub mod tables;
 mod vehicle;
+mod written_models;
 
 use std::process::Command;
 

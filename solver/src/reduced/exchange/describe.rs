@@ -124,6 +124,12 @@ impl Making<'_> {
         }
         let pose = frame.then(&self.frames[body]);
         let solid = Solid::of(one, model.case.geometry)?;
+        if part.mass == 0.0 {
+            self.notes.push(format!(
+                "\"{}\" has no mass, which MuJoCo refuses of a body that moves: write a small one",
+                one.name
+            ));
+        }
         let is_root = part.link == 0;
         let mut robot = RobotBody {
             name: one.name.clone(),
@@ -140,6 +146,7 @@ impl Making<'_> {
             ellipsoids: self.ellipsoids(part),
             extent: Some(solid.semi_axes),
             middle: solid.center + solid.middle,
+            largest: None,
             displaced: 0.0,
             lifted_at: solid.center,
         };

@@ -52,6 +52,8 @@ pub(super) struct RobotBody {
     pub extent: Option<Vector3<f64>>,
     /// Its middle in the frame of the body (m).
     pub middle: Vector3<f64>,
+    /// The largest shape that a file shows of it, as an ellipsoid in a fluid.
+    pub largest: Option<RobotEllipsoid>,
     /// Mass of the fluid it displaces (kg).
     pub displaced: f64,
     /// Where that lifts it, in its frame (m).

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use roxmltree::Node;
 
 use super::defaults::{Defaults, Element};
-use super::geoms::geom;
+use super::geoms::{as_ellipsoid, geom};
 use super::joined::{MOST_BODIES, Raw};
 use super::mass::Mass;
 use super::source::{Read, Remark, children, refuse, remark, unit};
@@ -72,6 +72,7 @@ impl<'a, 'i> Bodies<'_, 'a, 'i> {
             joints: Vec::new(),
             ellipsoids: Vec::new(),
             extent: None,
+            largest: None,
             lift: own.number("gravcomp", 0.0)?,
         });
         let mut inside = Inside { inertial: None, of_geoms: Mass::zero(), unknown: None };
@@ -143,6 +144,7 @@ impl<'a, 'i> Bodies<'_, 'a, 'i> {
                 let was = self.raws[number].extent.map_or(0.0, |was| was.product());
                 if extent.product() > was {
                     self.raws[number].extent = Some(extent);
+                    self.raws[number].largest = Some(as_ellipsoid(found.pose, &solid));
                 }
             }
             _ => {

@@ -7,7 +7,7 @@ use nalgebra::{Rotation3, UnitQuaternion, UnitVector3, Vector3};
 
 use super::driven::{Drive, drives};
 use super::mass::Mass;
-use super::keel::keel_of;
+use super::several_joints::keel_of;
 use super::source::Remark;
 use super::words::{Names, float, list, plain, quaternion, quoted};
 use crate::case::KeelSpec;

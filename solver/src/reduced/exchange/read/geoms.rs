@@ -85,6 +85,11 @@ pub(super) fn geom(element: &Element<'_, '_, '_>, angles: &Angles) -> Read<Geom>
     Ok(Geom { pose, solid: Some(solid), mass: Some(mass), ellipsoid })
 }
 
+/// A shape as an ellipsoid of which a file says nothing.
+pub(super) fn as_ellipsoid(pose: Pose<f64>, solid: &Solid) -> RobotEllipsoid {
+    RobotEllipsoid { pose, semi_axes: solid.semi_axes(), coefficients: COEFFICIENTS }
+}
+
 fn coefficients(element: &Element<'_, '_, '_>) -> Read<[f64; 5]> {
     let own = element.numbers("fluidcoef")?.unwrap_or_default();
     if own.len() > COEFFICIENTS.len() || own.iter().any(|one| *one < 0.0) {

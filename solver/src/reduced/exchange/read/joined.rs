@@ -3,7 +3,6 @@
 use alewife_reduced::tree::Pose;
 use nalgebra::{Matrix3, Vector3};
 
-use super::keel::keel_of;
 use super::mass::Mass;
 use super::source::{Read, Remark};
 use super::words::Names;
@@ -36,6 +35,8 @@ pub(super) struct Raw {
     pub ellipsoids: Vec<RobotEllipsoid>,
     /// Half lengths of its largest shape along its axes (m).
     pub extent: Option<Vector3<f64>>,
+    /// That shape as an ellipsoid in a fluid.
+    pub largest: Option<RobotEllipsoid>,
     /// Part of its weight that lifts it.
     pub lift: f64,
 }
@@ -111,6 +112,7 @@ pub(super) fn joined(raws: &[Raw]) -> Read<Joined> {
             ellipsoids: Vec::new(),
             extent: None,
             middle: Vector3::zeros(),
+            largest: None,
             displaced: 0.0,
             lifted_at: Vector3::zeros(),
         };
@@ -143,15 +145,15 @@ fn add(body: &mut RobotBody, raw: &Raw, pose: &Pose<f64>) {
         body.lifted_at = (body.lifted_at * body.displaced + own.center * lifted) / sum;
         body.displaced = sum;
     }
-    body.ellipsoids.extend(
-        raw.ellipsoids.iter().map(|one| RobotEllipsoid { pose: pose.then(&one.pose), ..*one }),
-    );
+    let seen = |one: RobotEllipsoid| RobotEllipsoid { pose: pose.then(&one.pose), ..one };
+    body.ellipsoids.extend(raw.ellipsoids.iter().copied().map(seen));
     let size = |extent: &Vector3<f64>| extent.product();
     let turned = |extent: Vector3<f64>| (pose.rotation.abs() * extent).map(|part| part.max(1e-9));
     let larger =
         raw.extent.filter(|own| body.extent.as_ref().is_none_or(|was| size(own) > size(was)));
     if let Some(extent) = larger {
         body.extent = Some(turned(extent));
+        body.largest = raw.largest.map(seen);
     }
 }
 
@@ -187,16 +189,6 @@ fn check(raws: &[Raw], joined: &Joined) -> Read<()> {
         return refused(0, "the file has no body that moves", "one with a joint or a freejoint");
     }
     for (number, body) in joined.bodies.iter().enumerate() {
-        if body.joints.len() > 1 && (body.parent.is_some() || keel_of(body).is_none()) {
-            let help = if body.parent.is_some() {
-                "bodies between them, each with a mass and one joint"
-            } else {
-                "one joint or a freejoint; or those of a keel: slide x, y, z, then hinge x, y, z at one place, \
-                 with the same springs about x and y, one along z and none else"
-            };
-            let what = format!("it has {} joints, and a body of a case has one", body.joints.len());
-            return refused(number, &what, help);
-        }
         let moments = body.inertia.symmetric_eigenvalues();
         // Those of a thin rod may be less than zero by rounding
         let has_moments = moments.max() > 0.0 && moments.min() > -1e-12 * moments.max();

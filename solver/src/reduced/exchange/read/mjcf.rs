@@ -269,10 +269,13 @@ fn whole(
     if settings.fluid.is_some() {
         for (raw, place) in raws.iter().zip(&places) {
             if place.body.is_some_and(|body| made[body].ellipsoids.is_empty()) {
-                let what = "MuJoCo has the loads of a box on it, the case has those of an ellipsoid: \
-                            none of its geoms has fluidshape=\"ellipsoid\"";
+                let what = "MuJoCo has the loads of a box on it, the case has those of an ellipsoid in the \
+                            place of its largest geom: none has fluidshape=\"ellipsoid\"";
                 notes.push(super::joined::said(&raw.element, what));
             }
+        }
+        for body in made.iter_mut().filter(|body| body.ellipsoids.is_empty()) {
+            body.ellipsoids.extend(body.largest);
         }
     }
     let name = root.attribute("model").unwrap_or("model").to_owned();

@@ -7,9 +7,9 @@ mod driven;
 mod drives;
 mod geoms;
 mod joined;
-mod keel;
 mod mass;
 mod mjcf;
+mod several_joints;
 mod source;
 mod turn;
 mod urdf;
@@ -52,6 +52,7 @@ pub fn import(text: &str, file: &str) -> Result<Imported, Remark> {
         ),
     }?;
     let Found { robot, mut notes } = found;
+    let robot = several_joints::chained(robot, &mut notes);
     let text = case::text(&robot, file, &mut notes);
     notes.sort_by_key(|note| note.line);
     Ok(Imported { text, notes })

@@ -158,6 +158,7 @@ impl<'a, 'i> File<'a, 'i> {
             joints: Vec::new(),
             ellipsoids: Vec::new(),
             extent: extent(node)?,
+            largest: None,
             lift: 0.0,
         };
         if let Some(joint) = joint {
