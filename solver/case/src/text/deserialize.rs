@@ -201,13 +201,7 @@ impl<'a> Alternative<'a> {
     /// The content; an error that says how to write it if there is none.
     fn content(&self) -> Result<&'a TomlNode, TypeError> {
         let tag = self.tag;
-        self.content.ok_or_else(|| {
-            TypeError::new(Mismatch::Other(
-                format!("`{tag}` needs values of its own"),
-                format!("write {{ {tag} = ... }} instead of \"{tag}\""),
-            ))
-            .at(self.at)
-        })
+        self.content.ok_or_else(|| TypeError::new(Mismatch::NoContent(tag.to_owned())).at(self.at))
     }
 }
 

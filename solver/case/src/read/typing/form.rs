@@ -23,6 +23,22 @@ pub fn written(path: &str, found: Option<&str>) -> Option<String> {
     }
 }
 
+/// How the alternative of a name is written as the value at a path, and what it is.
+pub fn alternative(path: &str, name: &str) -> Option<String> {
+    let named = |one: &&'static Value| one["properties"].get(name).is_some();
+    let one = options(resolved(at(path)?)).find(named)?;
+    let declared = resolved(&one["properties"][name]);
+    let form = match forms(declared, None).into_iter().next() {
+        Some(form) => form,
+        None if declared["type"] == "string" => "\"...\"".to_owned(),
+        None => "...".to_owned(),
+    };
+    let what = one["description"].as_str().and_then(|text| text.split("\n\n").next());
+    let what = what.map(|text| format!(" ({})", text.replace('\n', " ").trim_end_matches('.')));
+    let what = what.unwrap_or_default();
+    Some(format!("write {{ {name} = {form} }} instead of \"{name}\"{what}"))
+}
+
 /// The table below the one at a path, or the alternative of it, that has all of some keys.
 pub fn holder(path: &str, keys: &[&str]) -> Option<&'static str> {
     let declared = if path.is_empty() { whole() } else { resolved(at(path)?) };
@@ -154,6 +170,19 @@ mod tests {
         assert!(fields.contains("\"never\"") && fields.contains("{ steps = ... }"), "{fields}");
         assert!(of("contact.barrier", None).contains("range = ..."));
         assert_eq!(written("body.0.nothing.here", None), None);
+    }
+
+    #[test]
+    fn an_alternative_is_shown_with_what_it_holds() {
+        let found = alternative("boundary.left", "periodic").unwrap();
+        assert!(
+            found.starts_with("write { periodic = \"...\" } instead of \"periodic\""),
+            "{found}"
+        );
+        assert!(found.ends_with("(One of a periodic pair: the side opposite, by name)"), "{found}");
+        let found = alternative("body.0.shape", "disc").unwrap();
+        assert!(found.starts_with("write { disc = { radius = "), "{found}");
+        assert_eq!(alternative("body.0.shape", "banana"), None);
     }
 
     #[test]

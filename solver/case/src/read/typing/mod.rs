@@ -4,7 +4,7 @@ mod form;
 
 use serde::Deserialize;
 
-use self::form::{holder, written};
+use self::form::{alternative, holder, written};
 use super::reference_rows::REFERENCES;
 use super::schema;
 use crate::Case;
@@ -78,6 +78,10 @@ fn told(root: &TomlNode, error: &TypeError) -> Diagnostic {
             let help = at.and_then(|node| brackets(node, &path, wanted));
             let by_schema = || at.and_then(|node| written(&path, number(node).as_deref()));
             let help = help.or_else(|| by_schema().filter(|_| wanted == "a table"));
+            (path, help)
+        }
+        Mismatch::NoContent(name) => {
+            let help = alternative(&path, name);
             (path, help)
         }
         Mismatch::NoAlternative { .. } => {

@@ -14,8 +14,10 @@ pub(super) fn broken(mismatch: &Mismatch) -> Option<f64> {
 pub(super) fn whole_example(value: f64) -> String {
     // Larger ones have no point, and none of them is a count
     const LARGEST: f64 = 1e15;
-    let (below, above) = (value.floor().max(0.0), value.ceil().max(0.0));
-    if value.is_nan() || value.abs() > LARGEST {
+    let (below, above) = (value.floor(), value.ceil());
+    if value < 0.0 {
+        "write a whole number of 0 or more".to_owned()
+    } else if value.is_nan() || value.abs() > LARGEST {
         "write a whole number, without a point and a power of ten".to_owned()
     } else if below == above {
         format!("write it without a point: {below}")

@@ -51,6 +51,8 @@ pub enum Mismatch {
         /// What may be there.
         accepted: Vec<String>,
     },
+    /// The name alone of an alternative that has values of its own.
+    NoContent(String),
     /// Anything else: what is wrong, and what to do.
     Other(String, String),
 }
@@ -125,6 +127,7 @@ impl TypeError {
             Mismatch::WrongType { found, wanted } => {
                 format!("`{path}` is {found} where {wanted} is wanted")
             }
+            Mismatch::NoContent(name) => format!("`{path}`: `{name}` needs values of its own"),
             Mismatch::NoAlternative { message, .. } | Mismatch::Other(message, _) => {
                 format!("`{path}`: {message}")
             }
@@ -159,6 +162,7 @@ impl TypeError {
             Mismatch::NoAlternative { accepted, .. } => {
                 format!("give one of: {}", accepted.join(", "))
             }
+            Mismatch::NoContent(name) => format!("write {{ {name} = ... }} instead of \"{name}\""),
             Mismatch::Other(_, help) => help.clone(),
         }
     }
@@ -309,7 +313,12 @@ mod tests {
             ("`6.5`", "usize", "where a whole number is wanted", "write 6 or 7"),
             ("`6.0`", "u8", "where a whole number is wanted", "write it without a point: 6"),
             ("`1e300`", "u64", "where a whole number is wanted", "write a whole number, without"),
-            ("`-0.5`", "usize", "where a whole number is wanted", "write it without a point: 0"),
+            (
+                "`-0.5`",
+                "usize",
+                "where a whole number is wanted",
+                "write a whole number of 0 or more",
+            ),
             ("`-3`", "usize", "where a whole number of 0 or more is wanted", ""),
         ] {
             let mismatch = Mismatch::WrongType { found: found.to_owned(), wanted: plain(&wanted) };
