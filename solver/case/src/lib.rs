@@ -49,8 +49,8 @@ pub use spec::body::motion::inertia::InertiaSpec;
 pub use spec::body::motion::{ImposedMotion, LoadFrame, Lock, Motion};
 pub use spec::body::orientation::Orientation;
 pub use spec::body::rod::{
-    Activation, AlongBody, Attached, EndLoadSpec, EndLoads, Hold, LoadedEnd, RestShape, RodEnd,
-    RodSpec,
+    Activation, AlongBody, Attached, EndLoadSpec, EndLoads, EndMoment, Hold, LoadedEnd, RestShape,
+    RodEnd, RodSpec,
 };
 pub use spec::body::spring::SpringSpec;
 pub use spec::body::squirmer::SquirmerGait;

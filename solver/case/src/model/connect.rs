@@ -4,8 +4,8 @@ use super::Model;
 use super::commands::Commands;
 use crate::spec::body::command::Command;
 use crate::{
-    Body, BoundaryCondition, DrivenLaw, EndLoadSpec, EndLoads, GaitSpec, Hold, JointKind,
-    MagneticSpec, Motion, Stroke, TimeFunction,
+    Body, BoundaryCondition, DrivenLaw, EndLoadSpec, EndLoads, EndMoment, GaitSpec, Hold,
+    JointKind, MagneticSpec, Motion, Stroke, TimeFunction,
 };
 
 /// A command of a body or a side: what it is called there, the key below that of its owner, and the command.
@@ -199,8 +199,16 @@ fn of_ends(loads: &mut EndLoads) -> Vec<Found<'_>> {
         let forces = forces.map(|(axis, (stroke, name))| {
             (format!("force.{name}"), format!("force.{axis}"), stroke)
         });
-        let moment = moment.iter_mut().map(|stroke| ("moment".into(), "moment".into(), stroke));
-        for (name, key, stroke) in forces.chain(moment) {
+        let is_in_space = matches!(moment, Some(EndMoment::Spatial(_)));
+        let moments = moment.iter_mut().flat_map(EndMoment::components_mut);
+        let moments = moments.zip(["x", "y", "z"]).enumerate().map(|(axis, (stroke, name))| {
+            if is_in_space {
+                (format!("moment.{name}"), format!("moment.{axis}"), stroke)
+            } else {
+                ("moment".to_owned(), "moment".to_owned(), stroke)
+            }
+        });
+        for (name, key, stroke) in forces.chain(moments) {
             if let Some(command) = of_stroke(Some(stroke)) {
                 let end = at_end.end.name();
                 found.push((format!("{end}.{name}"), format!("rod.load.{end}.{key}"), command));

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use super::ends::SpatialEndPose;
+use super::ends::{SpatialEndLoad, SpatialEndPose};
 use super::loaded_end::SpatialLoadedEnd;
 use super::spatial_rod::SpatialRod;
 use super::surface::{SpatialSectionPoint, SpatialSurfaceRows};
@@ -45,7 +45,7 @@ impl SpatialRodBody {
         Self { weight: Some(weight), ..self }
     }
 
-    /// With forces at its ends.
+    /// With loads at its ends.
     #[must_use]
     pub fn with_loaded_ends(self, ends: Vec<SpatialLoadedEnd>) -> Self {
         Self { ends, ..self }
@@ -89,7 +89,7 @@ impl Structure for SpatialRodBody {
             forces -= weight.load(coordinates, velocities, time);
         }
         for end in &self.ends {
-            end.subtract(&self.rod, time, &mut forces);
+            end.subtract(&self.rod, coordinates, time, &mut forces);
         }
         forces
     }
@@ -100,7 +100,11 @@ impl Structure for SpatialRodBody {
         velocities: &DVector<f64>,
         time: f64,
     ) -> Tangents {
-        self.rod.tangents(coordinates, velocities, time)
+        let mut tangents = self.rod.tangents(coordinates, velocities, time);
+        for end in &self.ends {
+            end.subtract_tangent(&self.rod, coordinates, time, &mut tangents.stiffness);
+        }
+        tangents
     }
 
     fn elastic_energy(&self, coordinates: &DVector<f64>, time: f64) -> f64 {
@@ -113,7 +117,7 @@ impl Structure for SpatialRodBody {
         velocities: &DVector<f64>,
         time: f64,
     ) -> InnerPower {
-        let power = |end: &SpatialLoadedEnd| end.power(&self.rod, velocities, time);
+        let power = |end: &SpatialLoadedEnd| end.power(&self.rod, coordinates, velocities, time);
         let ends = self.ends.iter().map(power).sum();
         InnerPower { ends, ..self.rod.inner_power(coordinates, velocities, time) }
     }
@@ -149,8 +153,11 @@ impl Flexible for SpatialRodBody {
     }
 
     fn given_load(&self, time: f64) -> GivenLoad {
-        let force = self.ends.iter().map(|end| (end.force)(time)).sum();
-        GivenLoad { force, ..GivenLoad::default() }
+        let loads = self.ends.iter().map(|end| (end.load)(time));
+        loads.fold(GivenLoad::default(), |sum, SpatialEndLoad { force, moment }| GivenLoad {
+            force: sum.force + force,
+            moment: sum.moment + moment,
+        })
     }
 
     fn center_weights(&self) -> Vec<Weight> {

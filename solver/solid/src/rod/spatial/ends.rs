@@ -36,7 +36,7 @@ impl Default for SpatialEndPose {
     }
 }
 
-/// What a support does to a rod in space.
+/// What acts at an end of a rod in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpatialEndLoad {
     /// Force (N).

@@ -57,7 +57,9 @@ pub fn bent_by_loads(geometry: Geometry, body: &Body) -> Vec<BentByLoad> {
             all.push(BentByLoad { end, by, curvature, half_width });
         };
         if let Some(moment) = &load.moment {
-            bent("moment", largest(moment) / stiffness);
+            // In space one about the end twists it: which one that is depends on how it is bent
+            let moment = moment.components().iter().map(largest).fold(0.0, f64::hypot);
+            bent("moment", moment / stiffness);
         }
         if is_clamped && end == RodEnd::Tip && !load.force.is_empty() {
             let force = load.force.iter().map(largest).fold(0.0, f64::hypot);

@@ -3,7 +3,8 @@
 use crate::rules::Findings;
 use crate::rules::body::joints::stroke as numbers_of_stroke;
 use crate::{
-    BentByLoad, Body, EndLoadSpec, Geometry, Hold, LoadedEnd, RodEnd, bent_by_loads, significant,
+    BentByLoad, Body, EndLoadSpec, EndMoment, Geometry, Hold, LoadedEnd, RodEnd, bent_by_loads,
+    significant,
 };
 
 /// Loads at the ends of a rod.
@@ -50,7 +51,11 @@ fn numbers(findings: &mut Findings<'_>, key: &str, load: &EndLoadSpec) {
         findings.error(
             key,
             "there is neither a `force` nor a `moment`".to_owned(),
-            "write force = [{ constant = ... }, { constant = ... }] (N; N/m planar) or moment.constant = ... (N m; N planar)",
+            if is_in_space {
+                "write force = [{ constant = ... }, { constant = ... }, { constant = ... }] (N) or moment, a list alike (N m)"
+            } else {
+                "write force = [{ constant = ... }, { constant = ... }] (N/m) or moment.constant = ... (N)"
+            },
         );
     } else if !force.is_empty() && force.len() != n {
         let component = vec!["{ constant = ... }"; n].join(", ");
@@ -63,10 +68,36 @@ fn numbers(findings: &mut Findings<'_>, key: &str, load: &EndLoadSpec) {
     for (axis, stroke) in force.iter().enumerate() {
         numbers_of_stroke(findings, &format!("{key}.force.{axis}"), stroke);
     }
-    if let Some(moment) = moment {
-        numbers_of_stroke(findings, &format!("{key}.moment"), moment);
+    match (moment, is_in_space) {
+        (None, _) => {}
+        (Some(EndMoment::Planar(moment)), false) => {
+            numbers_of_stroke(findings, &format!("{key}.moment"), moment);
+        }
+        (Some(EndMoment::Spatial(moments)), true) if moments.len() == 3 => {
+            for (axis, moment) in moments.iter().enumerate() {
+                numbers_of_stroke(findings, &format!("{key}.moment.{axis}"), moment);
+            }
+        }
+        (Some(EndMoment::Planar(_)), true) => findings.error(
+            &format!("{key}.moment"),
+            "a moment in space has 3 components, and here is one".to_owned(),
+            IN_SPACE,
+        ),
+        (Some(EndMoment::Spatial(moments)), true) => findings.error(
+            &format!("{key}.moment"),
+            format!("a moment in space has 3 components, and here are {}", moments.len()),
+            IN_SPACE,
+        ),
+        (Some(EndMoment::Spatial(_)), false) => findings.error(
+            &format!("{key}.moment"),
+            "a moment in the plane is one function of time, and here is a list".to_owned(),
+            "write moment.constant = ... (N), counter-clockwise",
+        ),
     }
 }
+
+/// What a moment in space looks like.
+const IN_SPACE: &str = "write moment = [{ constant = ... }, { constant = ... }, { constant = ... }] (N m), about x, y and z";
 
 /// What holds the head takes the loads there.
 fn held(findings: &mut Findings<'_>, key: &str, body: &Body, load: &EndLoadSpec) {

@@ -1,6 +1,10 @@
 //! `rod.load`: forces and moments at the ends of a rod.
 
-use serde::{Deserialize, Serialize};
+use std::fmt;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{self, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::spec::body::stroke::Stroke;
 
@@ -25,10 +29,21 @@ pub struct EndLoadSpec {
     /// Force along x and y, and in space z (N; N/m planar), whatever way the end is turned.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub force: Vec<Stroke>,
-    /// Moment (N), positive where it turns the end counter-clockwise.
+    /// Moment (N m; N planar), whatever way the end is turned: positive where it turns it counter-clockwise, in space a list
+    /// about x, y and z.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
-    pub moment: Option<Stroke>,
+    pub moment: Option<EndMoment>,
+}
+
+/// A moment in time: about the normal of the plane, or about three axes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum EndMoment {
+    /// Counter-clockwise (N).
+    Planar(Stroke),
+    /// About x, y and z (N m).
+    Spatial(Vec<Stroke>),
 }
 
 /// An end of a rod.
@@ -63,7 +78,55 @@ impl RodEnd {
 impl EndLoadSpec {
     /// All that is given in time.
     pub fn strokes(&self) -> impl Iterator<Item = &Stroke> {
-        self.force.iter().chain(&self.moment)
+        self.force.iter().chain(self.moment.iter().flat_map(EndMoment::components))
+    }
+}
+
+impl EndMoment {
+    /// Its components: the one of the plane, or those about x, y and z.
+    #[must_use]
+    pub fn components(&self) -> &[Stroke] {
+        match self {
+            Self::Planar(moment) => std::slice::from_ref(moment),
+            Self::Spatial(moments) => moments,
+        }
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn components_mut(&mut self) -> &mut [Stroke] {
+        match self {
+            Self::Planar(moment) => std::slice::from_mut(moment),
+            Self::Spatial(moments) => moments,
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for EndMoment {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(EndMomentVisitor)
+    }
+}
+
+/// Tells the two forms by their type, so that an error is that of the form that was meant.
+struct EndMomentVisitor;
+
+impl<'de> Visitor<'de> for EndMomentVisitor {
+    type Value = EndMoment;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a function of time, in space a list of three,")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<EndMoment, A::Error> {
+        let stroke = Stroke::deserialize(MapAccessDeserializer::new(&mut map))?;
+        match map.next_key::<String>()? {
+            None => Ok(EndMoment::Planar(stroke)),
+            Some(key) => Err(de::Error::custom(format!("`{key}` is a second function of time"))),
+        }
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, components: A) -> Result<EndMoment, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(components)).map(EndMoment::Spatial)
     }
 }
 

@@ -7,7 +7,7 @@ use alewife_mesh::Profile;
 use nalgebra::{Rotation2, Vector2};
 
 use super::laws::{ENDS, density, end, refused, steady_rest, stiff_enough, with_wave};
-use crate::case::{self, AlongBody, Body, Case, EndLoadSpec, Hold, RodSpec};
+use crate::case::{self, AlongBody, Body, Case, EndLoadSpec, EndMoment, Hold, RodSpec};
 use crate::gait::FlexibleShape;
 use crate::rod::{
     Along, End, EndLoad, EndPose, Flexure, LoadedEnd, PlanarProperties, PlanarRod, PlanarRodBody,
@@ -62,7 +62,11 @@ fn loaded_ends(body: &Body) -> Vec<LoadedEnd> {
                 let along = |axis: usize| force.get(axis).map_or(0.0, |stroke| stroke.at(time)[0]);
                 EndLoad {
                     force: turn * Vector2::new(along(0), along(1)),
-                    moment: moment.as_ref().map_or(0.0, |stroke| stroke.at(time)[0]),
+                    moment: moment
+                        .iter()
+                        .flat_map(EndMoment::components)
+                        .map(|of| of.at(time)[0])
+                        .sum(),
                 }
             }),
         }

@@ -11,11 +11,13 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::laws::{
     ENDS, density, end, longest_step, refused, steady_rest, stiff_enough, with_wave,
 };
-use crate::case::{self, Activation, AlongBody, Body, Case, EndLoadSpec, Hold, RodSpec, Stroke};
+use crate::case::{
+    self, Activation, AlongBody, Body, Case, EndLoadSpec, EndMoment, Hold, RodSpec, Stroke,
+};
 use crate::gait::FlexibleSurface;
 use crate::rod::{
-    Along, End, Field, Flexure, RodProperties, Section, SpatialEndPose, SpatialLoadedEnd,
-    SpatialProperties, SpatialRod, SpatialRodBody, Support, Supports,
+    Along, End, Field, Flexure, RodProperties, Section, SpatialEndLoad, SpatialEndPose,
+    SpatialLoadedEnd, SpatialProperties, SpatialRod, SpatialRodBody, Support, Supports,
 };
 use crate::run::RunError;
 
@@ -91,17 +93,20 @@ fn turned(base: SpatialEndPose, angle: &Stroke, time: f64) -> SpatialEndPose {
     SpatialEndPose { rotation, angular_velocity: Vector3::z() * rate, ..base }
 }
 
-/// Forces at the ends, seen from the frame of the straight body as its coordinates are.
+/// Loads at the ends, seen from the frame of the straight body as its coordinates are.
 fn loaded_ends(body: &Body) -> Vec<SpatialLoadedEnd> {
     let turn = body.pose_in_space().rotation.inverse();
     let loaded = |at: case::LoadedEnd<&EndLoadSpec>| {
-        let force = at.load.force.clone();
-        let along =
-            move |axis: usize, time| force.get(axis).map_or(0.0, |stroke| stroke.at(time)[0]);
-        SpatialLoadedEnd {
-            end: end(at.end),
-            force: Box::new(move |time| turn * Vector3::from_fn(|axis, _| along(axis, time))),
-        }
+        let EndLoadSpec { force, moment } = at.load.clone();
+        let vector = move |of: &[Stroke], time| {
+            let along = |axis: usize| of.get(axis).map_or(0.0, |stroke| stroke.at(time)[0]);
+            turn * Vector3::from_fn(|axis, _| along(axis))
+        };
+        let load = move |time| SpatialEndLoad {
+            force: vector(&force, time),
+            moment: vector(moment.as_ref().map_or(&[], EndMoment::components), time),
+        };
+        SpatialLoadedEnd { end: end(at.end), load: Box::new(load) }
     };
     body.end_loads().map(loaded).collect()
 }

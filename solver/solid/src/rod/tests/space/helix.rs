@@ -10,22 +10,22 @@ use crate::rod::{Along, End, Field, Resistance, SpatialEndPose, SpatialRod, Supp
 use crate::structure::{Held, Load, Structure};
 
 /// Curvature and torsion at rest.
-const REST: [f64; 2] = [6.0, 3.0];
+pub(super) const REST: [f64; 2] = [6.0, 3.0];
 
 /// A rod whose rest shape is a helix with d1 along its normal.
-fn helix(elements: usize) -> SpatialRod {
+pub(super) fn helix(elements: usize) -> SpatialRod {
     let rest = [0.0, REST[0], REST[1]].map(|value| Field::Steady(Along::Constant(value)));
     at_rest_with(unit(elements), rest)
 }
 
 /// Coordinates of a helix with a curvature and a torsion from the origin.
-fn coordinates(rod: &SpatialRod, [curvature, torsion]: [f64; 2]) -> DVector<f64> {
+pub(super) fn coordinates(rod: &SpatialRod, [curvature, torsion]: [f64; 2]) -> DVector<f64> {
     let turning = [0.0, curvature, torsion].map(Along::Constant);
     rod.curved(Vector3::zeros(), Rotation3::identity(), &turning)
 }
 
 /// The pose of the tip for such coordinates.
-fn tip(q: &DVector<f64>) -> SpatialEndPose {
+pub(super) fn tip(q: &DVector<f64>) -> SpatialEndPose {
     let first = q.len() - 9;
     let part = |i: usize| q.fixed_rows::<3>(first + 3 * i).into_owned();
     let (tangent, across) = (part(1), part(2));
@@ -34,7 +34,10 @@ fn tip(q: &DVector<f64>) -> SpatialEndPose {
 }
 
 /// Force and moment at the tip that a helix needs, in the axes of the world.
-fn kirchhoff(pose: &SpatialEndPose, [curvature, torsion]: [f64; 2]) -> [Vector3<f64>; 2] {
+pub(super) fn kirchhoff(
+    pose: &SpatialEndPose,
+    [curvature, torsion]: [f64; 2],
+) -> [Vector3<f64>; 2] {
     let [tangent, binormal] = [Vector3::x(), Vector3::z()].map(|axis| pose.rotation * axis);
     let (bend, twist) = (curvature - REST[0], TWISTING * (torsion - REST[1]));
     let across = twist * curvature - bend * torsion;

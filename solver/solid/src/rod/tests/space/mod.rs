@@ -3,6 +3,7 @@
 pub mod common;
 mod derivatives;
 mod helix;
+mod moments;
 mod motion;
 mod statics;
 mod surface;

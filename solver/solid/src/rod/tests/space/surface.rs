@@ -5,8 +5,8 @@ use nalgebra::{DVector, Rotation3, Vector3, Vector6};
 use super::common::{along_x, simple};
 use crate::rod::tests::common::scatter;
 use crate::rod::{
-    Along, End, SpatialEndPose, SpatialLoadedEnd, SpatialRodBody, SpatialSectionPoint, Support,
-    Supports,
+    Along, End, SpatialEndLoad, SpatialEndPose, SpatialLoadedEnd, SpatialRodBody,
+    SpatialSectionPoint, Support, Supports,
 };
 use crate::structure::{BaseMotion, Flexible, Structure};
 
@@ -107,23 +107,49 @@ fn the_base_of_a_rod_has_the_rigid_motion_it_is_in() {
     assert!(power.abs() < 1e-8 * body.elastic_energy(&q, 0.0), "{power}");
 }
 
+/// Whatever the tangent and the vector across are: against the velocity and the turn of the frame there, and the tangent against
+/// differences.
 #[test]
-fn a_force_at_an_end_does_its_work_there() {
+fn a_load_at_an_end_does_its_work_there() {
     let rod = simple(3);
     let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.5) * 0.1;
     let rates = scatter(rod.n_coordinates(), 1.3);
     let body = || SpatialRodBody::new(rod.clone(), SpatialEndPose::default(), Supports::FREE);
-    let force = |time: f64| Vector3::new(0.3, -0.2, 0.5) * time;
-    let at_tip = SpatialLoadedEnd { end: End::Tip, force: Box::new(force) };
-    let loaded = body().with_loaded_ends(vec![at_tip]);
-    let without = body().forces(&q, &rates, 2.0);
-    let change = loaded.forces(&q, &rates, 2.0) - &without;
-    // Inner forces are large, as stretched rods are stiff
-    let rounding = 4.0 * f64::EPSILON * without.norm() * rates.norm();
-    let power = loaded.inner_power(&q, &rates, 2.0).ends;
-    let velocity =
-        rod.surface(&q, SpatialSectionPoint { along: 1.0, offset: [0.0; 2] }).velocity(&rates);
-    assert!((power - force(2.0).dot(&velocity)).abs() < 1e-13, "{power}");
-    assert!((change.dot(&rates) + power).abs() < rounding.max(1e-12), "{power}");
-    assert_eq!(loaded.given_load(2.0).force, force(2.0));
+    let load = |time: f64| SpatialEndLoad {
+        force: Vector3::new(0.3, -0.2, 0.5) * time,
+        moment: Vector3::new(-0.7, 0.4, 0.2) * time,
+    };
+    for end in [End::Base, End::Tip] {
+        let loaded = body().with_loaded_ends(vec![SpatialLoadedEnd { end, load: Box::new(load) }]);
+        let without = body().forces(&q, &rates, 2.0);
+        let change =
+            |q: &DVector<f64>| loaded.forces(q, &rates, 2.0) - body().forces(q, &rates, 2.0);
+        // Inner forces are large, as stretched rods are stiff
+        let rounding = 4.0 * f64::EPSILON * without.norm() * rates.norm();
+        let power = loaded.inner_power(&q, &rates, 2.0).ends;
+        assert!((change(&q).dot(&rates) + power).abs() < rounding.max(1e-12), "{power}");
+        assert_eq!(loaded.given_load(2.0).force, load(2.0).force);
+        assert_eq!(loaded.given_load(2.0).moment, load(2.0).moment);
+        // The frame at the tip is that at the base of the rod the other way round
+        let SpatialEndLoad { force, moment } = load(2.0);
+        let end_rates = |of: &DVector<f64>| match end {
+            End::Base => of.clone(),
+            End::Tip => DVector::from_fn(of.len(), |i, _| of[27 - 9 * (i / 9) + i % 9]),
+        };
+        let motion = body().base(&end_rates(&q), &end_rates(&rates)).expect("it has a base");
+        let exact = force.dot(&motion.velocity) + moment.dot(&motion.angular_velocity);
+        assert!((power - exact).abs() < 1e-12, "{power} {exact}");
+        let stiffness = |of: &SpatialRodBody| of.tangents(&q, &rates, 2.0).stiffness;
+        let added = stiffness(&loaded) - stiffness(&body());
+        let small = 1e-6;
+        for i in 0..q.len() {
+            let moved = |by: f64| {
+                let mut q = q.clone();
+                q[i] += by;
+                loaded.forces(&q, &rates, 2.0) - body().forces(&q, &rates, 2.0)
+            };
+            let slope = (moved(small) - moved(-small)) / (2.0 * small);
+            assert!((slope - added.column(i)).amax() < 1e-4, "{i}");
+        }
+    }
 }
