@@ -112,6 +112,7 @@ const FOREIGN: [(&str, &[&str]); 10] = [
         &[
             "solver/case/src/spec/body/given/midline.rs",
             "solver/case/src/spec/formula/",
+            "solver/core/src/coupling/turning_base.rs",
             "solver/core/src/gait/",
             "solver/reduced/src/tree/",
             "solver/solid/src/material/",

@@ -11,6 +11,7 @@ mod magnets;
 mod mean_flow;
 mod periodic_given;
 mod rods_on_bodies;
+mod rods_on_bodies_in_space;
 mod sides;
 mod step_errors;
 mod threads;

@@ -8,7 +8,7 @@ use nalgebra::DVector;
 
 use super::error::StepError;
 use super::stepper::{Step, TimeStepper};
-use crate::body::{Inertia, Orientation, Pose, RigidVector, Twist, carried_velocity};
+use crate::body::{Inertia, Pose, RigidVector, Twist, carried_velocity};
 use crate::coupling::{
     AttachedCoordinate, BodyShapes, FlexibleEquation, PosesByVelocity, Problem, RigidBody,
     RigidBodyEquations, ShapeError, Solution, TurningBase,
@@ -231,9 +231,10 @@ impl<const D: usize> StepHistory<D> {
         let rate = self.step.bdf.next;
         for AttachedCoordinate { coordinate, own, to, given } in problem.attached_coordinates() {
             let (seen_from, pose) = (&problem.bodies[own].pose, &poses[to]);
-            // The velocity that leads to the pose
-            let twist = Twist::from_vector(&(pose.displacement_from(&self.unmoved[to]) * rate));
-            let way = given.rate(seen_from, pose, &twist) / rate;
+            // The velocity that leads to the pose, as it is integrated: in space turns do not commute
+            let from = self.older.as_ref().map_or(&self.unmoved[to], |[now, _]| &now.poses[to]);
+            let led = pose.displacement_from(from) - self.unmoved[to].displacement_from(from);
+            let way = given.rate(seen_from, pose, &Twist::from_vector(&(led * rate))) / rate;
             unmoved[coordinate] = given.value(seen_from, pose) - way;
         }
         unmoved
@@ -253,14 +254,10 @@ impl<const D: usize> StepHistory<D> {
     }
 }
 
-/// The end of a body that is clamped to another one in the plane, with that at its pose.
+/// The end of a body that is clamped to another one, with that at its pose.
 fn turning_base(body: &RigidBody, poses: &[Pose]) -> Option<TurningBase> {
     let attachment = body.attachment.as_ref()?;
-    let to = &poses[attachment.to];
-    match to.orientation {
-        Orientation::Planar(_) => TurningBase::new(&attachment.coordinates, &body.pose, to),
-        Orientation::Spatial(_) => None,
-    }
+    TurningBase::new(&attachment.coordinates, &body.pose, &poses[attachment.to])
 }
 
 /// Coordinates of all bodies at the new time with these rates there, and those that are given.

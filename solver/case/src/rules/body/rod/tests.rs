@@ -266,9 +266,19 @@ motion = 'free'
     )
 }
 
+/// A ball ahead of it.
+fn sphere_at(x: f64) -> String {
+    format!(
+        "[[body]]\nname = 'c'\nshape.sphere.radius = 0.2\ncenter = [{x}, 0.0, 0.0]\nmotion = 'free'"
+    )
+}
+
 #[test]
 fn rods_in_space_bend_in_two_directions_and_twist() {
     for lines in [
+        "rod.bending = 1.0\nattached = { to = 'c', hold = 'clamped' }",
+        "rod = { bending = 1.0, load.base.moment = [{ constant = 1.0 }, { constant = 0.0 }, { constant = -1.0 }] }\n\
+         attached = { to = 'c', hold = 'hinged' }",
         "rod = { bending = 1.0, twisting = 0.5, rest.turning = [-2.0, 0.0, 1.0] }",
         "rod = { young = 10.0, load.tip.force = [{ constant = 0.0 }, { constant = 0.0 }, { constant = 1.0 }] }\n\
          attached.hold = 'clamped'",
@@ -276,26 +286,43 @@ fn rods_in_space_bend_in_two_directions_and_twist() {
          activation = { wave_speed = 1.0, curvature.sine = { amplitude = 1.0, period = 1.0 }, \
          curvature_y.sine = { amplitude = 1.0, period = 1.0, phase = 0.25 } }",
     ] {
-        assert_eq!(of_case(&in_space(lines, ""), Severity::Error), Vec::<String>::new(), "{lines}");
+        let found = of_case(&in_space(lines, &sphere_at(0.9)), Severity::Error);
+        assert_eq!(found, Vec::<String>::new(), "{lines}");
     }
 }
 
 /// What is not made in space, and what is not of the plane.
 #[test]
 fn what_rods_in_space_cannot_do_is_refused_at_its_key() {
-    let other = "[[body]]\nname = 'c'\nshape.sphere.radius = 0.2\ncenter = [0.9, 0.0, 0.0]\nmotion = 'free'";
+    let (near, far) = (sphere_at(0.9), sphere_at(1.5));
     let contact = "[contact.quadratic]\nrange = 0.01\nepsilon = 1e-6";
     for (lines, behind, key) in [
         (
             "rod.bending = 1.0\nattached = { to = 'c', hold = 'clamped' }",
-            other,
+            far.as_str(),
             "body.0.attached.to",
+        ),
+        (
+            "rod.bending = 1.0\nattached = { to = 'c', hold.angle.constant = 0.1 }",
+            near.as_str(),
+            "body.0.attached.hold",
         ),
         ("rod.bending = 1.0", contact, "contact"),
         (
             "rod = { bending = 1.0, load.tip.moment.constant = 1.0 }",
             "",
             "body.0.rod.load.tip.moment",
+        ),
+        (
+            "rod = { bending = 1.0, load.tip.moment = [{ constant = 1.0 }, { constant = 1.0 }] }",
+            "",
+            "body.0.rod.load.tip.moment",
+        ),
+        (
+            "rod = { bending = 1.0, load.base.moment = [{ constant = 1.0 }, { constant = 1.0 }, { constant = 1.0 }] }\n\
+             attached = { to = 'c', hold = 'clamped' }",
+            near.as_str(),
+            "body.0.rod.load.base.moment",
         ),
         (
             "rod = { bending = 1.0, load.tip.force = [{ constant = 1.0 }, { constant = 1.0 }] }",
@@ -316,6 +343,7 @@ fn what_rods_in_space_cannot_do_is_refused_at_its_key() {
         ("rod = { bending = 1.0, twisting = 1.0 }", "rod.twisting"),
         ("rod = { bending = 1.0, rest.turning = [0.0, 0.0, 1.0] }", "rod.rest"),
         ("rod.bending = 1.0\nactivation.moment_y.constant = 1.0", "activation.moment_y"),
+        ("rod = { bending = 1.0, load.tip.moment = [{ constant = 1.0 }] }", "rod.load.tip.moment"),
     ] {
         assert_eq!(problems(&fish(lines), Severity::Error), [format!("body.1.{key}")], "{lines}");
     }

@@ -84,7 +84,6 @@ pub enum AlongBody {
 pub struct Attached {
     /// Name of the body it is attached to, as it is at the start; the laboratory if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
     pub to: Option<String>,
     /// What is given of it.
     pub hold: Hold,
