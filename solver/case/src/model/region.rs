@@ -77,6 +77,17 @@ impl Case {
         }
     }
 
+    /// The period of the domain along a line at an angle to x (rad) (m); none where it has none along that.
+    #[must_use]
+    pub fn period_along(&self, angle: f64) -> Option<f64> {
+        /// Sine of the angle below which a line is along an axis.
+        const ALONG: f64 = 1e-9;
+        let [along_x, along_y] = self.mesh_domain().periods();
+        let (sin, cos) = angle.sin_cos();
+        let is_along = |off: f64| off.abs() < ALONG;
+        along_x.filter(|_| is_along(sin)).or(along_y.filter(|_| is_along(cos)))
+    }
+
     /// The walls of a channel, with its images behind axis and planes of symmetry (m), along each
     /// coordinate; `None` without walls.
     #[must_use]

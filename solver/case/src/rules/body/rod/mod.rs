@@ -5,6 +5,7 @@ mod attached;
 pub mod bent;
 pub(in crate::rules) mod beside;
 mod end_load;
+mod periodic;
 mod slender;
 
 use self::slender::{Slender, rises_along, too_sharp};
@@ -38,6 +39,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     beside::check(findings, key, body);
     stiffness(findings, &format!("{key}.rod"), rod, body_of);
     rest(findings, &format!("{key}.rod.rest"), rod, body_of);
+    periodic::check(findings, &format!("{key}.rod"), body, rod, body_of.length);
     end_load::check(findings, &format!("{key}.rod.load"), body);
     if let Some(attached) = &body.attached {
         attached::check(findings, &format!("{key}.attached"), body, attached, body_of.length);

@@ -348,3 +348,32 @@ fn what_rods_in_space_cannot_do_is_refused_at_its_key() {
         assert_eq!(problems(&fish(lines), Severity::Error), [format!("body.1.{key}")], "{lines}");
     }
 }
+
+/// A case with this rod across a periodic domain of length 1.02.
+fn sheet(rod: &str, more: &str) -> String {
+    let body = format!("{}\nrod = {{ bending = 1.0, periodic = true{rod} }}\n{more}", fish(""));
+    case_with(&body)
+        .replace("'no-slip', right = 'do-nothing'", "{ periodic = 'right' }")
+        .replace("min = [-4.0, -4.0], max = [4.0, 4.0]", "min = [-0.51, -4.0], max = [0.51, 4.0]")
+        .replace("center = [2.0, 2.0]", "center = [0.0, 2.0]")
+        .replace("radius = 0.5", "radius = 0.2")
+}
+
+#[test]
+fn sheets_without_ends_go_from_head_to_tail_across_a_period() {
+    let errors = |text: &str| of_case(text, Severity::Error);
+    let soft = ", stretching = 1.0";
+    assert_eq!(errors(&sheet(soft, "")), Vec::<String>::new());
+    for (text, key) in [
+        (sheet("", ""), "body.1.rod"),
+        (sheet(soft, "angle = 1.5707963267948966"), "body.1.rod.periodic"),
+        (sheet(soft, "attached.hold = 'clamped'"), "body.1.attached"),
+        (sheet(soft, "[contact.barrier]\nrange = 0.1\nstiffness = 1.0"), "contact"),
+        (sheet(", stretching = 1.0, rest.curvature = 0.1", ""), "body.1.rod.rest"),
+        (sheet(soft, "").replace("0.51", "0.49"), "body.1.rod.periodic"),
+        (sheet(soft, "").replace("0.51", "0.6"), "body.1.rod.periodic"),
+    ] {
+        let found = errors(&text);
+        assert!(found.contains(&key.to_owned()), "{key}: {found:?}\n{text}");
+    }
+}

@@ -39,6 +39,11 @@ pub struct RodSpec {
     #[serde(default)]
     #[cfg_attr(test, schemars(with = "NonNegative"))]
     pub damping: f64,
+    /// Whether its tail is joined to its own head a period of the domain further: a sheet without ends, of which the slit
+    /// between both is part.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[cfg_attr(test, schemars(extend("geometries" = ["planar"])))]
+    pub periodic: bool,
     /// Number of elements along the body.
     #[serde(default = "elements")]
     #[cfg_attr(test, schemars(range(min = 2, max = 1000)))]

@@ -20,8 +20,16 @@ pub fn shape(case: &Case, body: &Body, spec: &RodSpec) -> Result<FlexibleShape, 
     let refuse = |why: &str| refused(body, why);
     let profile = body.shape.profile().ok_or_else(|| refuse("a rod has to be slender"))?;
     let outline = profile.spline().ok_or_else(|| refuse("its lengths make no body"))?;
-    let rod = PlanarRod::new(properties(case, body, spec, &profile))
-        .map_err(|error| refuse(&error.to_string()))?;
+    let of_length =
+        |length: f64| properties(case, body, spec, Lengths { profile: &profile, length });
+    let rod = if spec.periodic {
+        let period = case.period_along(body.angle);
+        let period = period.ok_or_else(|| refuse("the domain is not periodic along it"))?;
+        PlanarRod::periodic(of_length(period), Vector2::new(-period, 0.0))
+    } else {
+        PlanarRod::new(of_length(profile.length()))
+    };
+    let rod = rod.map_err(|error| refuse(&error.to_string()))?;
     // The head is at the right, from where the rod goes on towards -x
     let nose = outline.evaluate(0.0)[0].x;
     let base = EndPose { place: Vector2::new(nose, 0.0), angle: PI, ..EndPose::default() };
@@ -74,8 +82,15 @@ fn loaded_ends(body: &Body) -> Vec<LoadedEnd> {
     body.end_loads().map(loaded).collect()
 }
 
-fn properties(case: &Case, body: &Body, spec: &RodSpec, profile: &Profile) -> PlanarProperties {
-    let (length, elements) = (profile.length(), spec.elements);
+/// Widths along a rod, and how long it is (m), with the slit where it is joined to itself.
+struct Lengths<'a> {
+    profile: &'a Profile,
+    length: f64,
+}
+
+fn properties(case: &Case, body: &Body, spec: &RodSpec, of: Lengths<'_>) -> PlanarProperties {
+    let Lengths { profile, length } = of;
+    let elements = spec.elements;
     let density = density(case, body);
     let widths = profile.clone();
     let section = move |along: f64| Section::Strip { half_width: widths.find(along).half_width };
