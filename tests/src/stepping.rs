@@ -20,7 +20,7 @@ use alewife_mesh::{Mesh, Point};
 pub fn workspace<const D: usize>(problem: &Problem<D>, mesh: &Mesh<D>) -> Workspace<D> {
     let poses = start_poses(problem);
     let system = FluidSystem::new(problem, mesh, &poses, false);
-    Workspace { system, mesh: mesh.clone(), timing: Timing::default() }
+    Workspace::new(system, mesh.clone())
 }
 
 fn start_poses<const D: usize>(problem: &Problem<D>) -> MeshPoses {

@@ -3,7 +3,7 @@
 use alewife_reduced::search::Sought as _;
 use alewife_reduced::tier::{Kind, Model, Seeker, series};
 
-use crate::cases::{BAR, Folder, agrees, record, sought};
+use crate::bar::{BAR, Folder, agrees, record, sought};
 
 /// The bar with pulses, and how it is bent in its middle in the record.
 fn pulsed() -> String {

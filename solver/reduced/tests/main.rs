@@ -1,6 +1,7 @@
 //! The soft tier: gradients against differences, cases, searches, and a twin of a recorded swimmer; the reduced tier.
 
 mod angles;
+mod bar;
 mod cases;
 mod given;
 mod gradients;

@@ -14,3 +14,11 @@ pub struct Workspace<const D: usize> {
     /// Time spent in each stage.
     pub timing: Timing,
 }
+
+impl<const D: usize> Workspace<D> {
+    /// With nothing booked yet.
+    #[must_use]
+    pub fn new(system: FluidSystem<D>, mesh: Mesh<D>) -> Self {
+        Self { system, mesh, timing: Timing::default() }
+    }
+}

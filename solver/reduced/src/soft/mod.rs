@@ -9,6 +9,7 @@ mod facets;
 mod motion;
 mod objective;
 mod record;
+mod tracks;
 mod work;
 
 pub use adjoint::{Gradient, Seeds, WithGradient};
@@ -18,5 +19,6 @@ pub use curve::Curve;
 pub use error::SoftError;
 pub use facets::FacetLaw;
 pub use motion::{Plan, Trajectory};
-pub use objective::{Markers, Objective, Tracks, Travel};
+pub use objective::{Markers, Objective, Travel};
 pub use record::{Gaps, Record};
+pub use tracks::Tracks;

@@ -7,13 +7,13 @@ use super::super::error::GradientError;
 use super::super::flow::BaseFlow;
 use super::super::moment::Moment;
 use super::course::{Course, Rates};
-use super::meshes::{MeshSince, Meshes, StepBegin};
+use super::meshes::{Left, Meshes, StepBegin};
 use super::unknowns::Unknowns;
 use crate::body::Pose;
 use crate::case::{CaseFile, Column, Unsteady};
 use crate::coupling::Problem;
 use crate::run::{CaseMesh, Dimension};
-use crate::step::{INSIDE, STAGES, Workspace};
+use crate::step::{INSIDE, STAGES};
 
 /// Part of the shortest edge on a body, and an angle (rad), by which bodies are displaced for what their places change:
 /// differences leave their squares.
@@ -94,8 +94,8 @@ where
         Ok(())
     }
 
-    /// The system on the first mesh, for another march, and the meshes made since.
-    pub fn end(self) -> (Option<Workspace<D>>, Vec<MeshSince<D>>) {
+    /// What is of use to another march.
+    pub fn end(self) -> Left<D> {
         self.meshes.end()
     }
 

@@ -14,7 +14,6 @@ use crate::coupling::{FluidSystem, MeshedBodies, RestPlaces, SolverChoice};
 use crate::motion::{Meshed, MovingMesh, RemeshError};
 use crate::run::{AtHand, CaseMesh, CellBound, Dimension, RunError, moving_mesh_on};
 use crate::step::Workspace;
-use crate::timing::Timing;
 
 /// A mesh, and since when it is there.
 pub(super) struct MeshSince<const D: usize> {
@@ -32,6 +31,14 @@ pub(super) struct Meshes<'a, const D: usize> {
     first: Option<Workspace<D>>,
     next: Next<'a, D>,
     made: Vec<MeshSince<D>>,
+}
+
+/// What a motion leaves to another one.
+pub(super) struct Left<const D: usize> {
+    /// The system on the first mesh, if it is there.
+    pub work: Option<Workspace<D>>,
+    /// The meshes made since.
+    pub made: Vec<MeshSince<D>>,
 }
 
 /// Where other meshes come from.
@@ -103,9 +110,9 @@ where
         self.work = Some(work);
     }
 
-    /// The system on the first mesh, if it is there, and the meshes made since.
-    pub fn end(self) -> (Option<Workspace<D>>, Vec<MeshSince<D>>) {
-        (self.first.or(self.work), self.made)
+    /// What is of use to another motion.
+    pub fn end(self) -> Left<D> {
+        Left { work: self.first.or(self.work), made: self.made }
     }
 
     /// Goes on to another mesh where it is time.
@@ -136,8 +143,7 @@ where
         let system = system_on(&point);
         self.made.push(MeshSince { time: begin.time, mesh: Rc::clone(&mesh) });
         self.now = mesh;
-        let work = Workspace { system, mesh: point.mesh, timing: Timing::default() };
-        let before = self.work.replace(work);
+        let before = self.work.replace(Workspace::new(system, point.mesh));
         if self.first.is_none() {
             self.first = before;
         }

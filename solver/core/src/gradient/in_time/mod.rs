@@ -18,7 +18,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use self::march::{March, Sides};
-use self::meshes::{MeshSince, Meshes};
+use self::meshes::{Left, MeshSince, Meshes};
 pub(super) use self::refusals::refuse_in_time;
 use super::adjoint::{Derivatives, Ends, ends};
 use super::error::GradientError;
@@ -62,8 +62,7 @@ where
     pub fn new(file: &CaseFile) -> Result<Self, GradientError> {
         refuse_in_time(file)?;
         let PreparedFlow { mesh, work, cell_bound } = BaseFlow::<D>::prepared(file)?;
-        let (work, made) = (RefCell::new(Some(work)), RefCell::default());
-        Ok(Self { mesh, work, cell_bound, made })
+        Ok(Self { mesh, work: RefCell::new(Some(work)), cell_bound, made: RefCell::default() })
     }
 
     /// Quantities at the end of the run of a case, and their derivatives by numbers.
@@ -90,7 +89,7 @@ where
             }
         };
         let found: Vec<Derivatives> = columns.iter().map(of).collect();
-        let (work, made) = march.end();
+        let Left { work, made } = march.end();
         self.work.replace(work);
         self.made.replace(made);
         for of in &found {
@@ -121,7 +120,7 @@ where
             let mut march = March::new(meshes, file, &[], needs_powers(columns))?;
             march.run(settings_of(file)?)?;
             values.push(columns.iter().map(|column| march.value(column)).collect::<Vec<f64>>());
-            self.work.replace(march.end().0);
+            self.work.replace(march.end().work);
         }
         let pairs = values[0].iter().zip(&values[1]);
         Ok(pairs.map(|(below, above)| (above - below) / (2.0 * step)).collect())
