@@ -1,10 +1,7 @@
 //! How a value is written in place of one of another type.
 
-use super::Mismatch;
-
 /// A number with a point in it where a whole one is wanted.
-pub(super) fn broken(mismatch: &Mismatch) -> Option<f64> {
-    let Mismatch::WrongType { found, wanted } = mismatch else { return None };
+pub(super) fn broken(found: &str, wanted: &str) -> Option<f64> {
     let number = found.strip_prefix('`')?.strip_suffix('`')?;
     let is_float = number.contains(['.', 'e', 'E']) || number.parse::<i64>().is_err();
     (is_float && wanted.starts_with("a whole number")).then(|| number.parse().ok())?

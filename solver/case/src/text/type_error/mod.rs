@@ -121,7 +121,7 @@ impl TypeError {
                 format!("`{path}` cannot be `{found}`")
             }
             Mismatch::MissingKey(key) => format!("missing key `{key}` {}", self.table()),
-            Mismatch::WrongType { found, .. } if broken(self.mismatch()).is_some() => {
+            Mismatch::WrongType { found, wanted } if broken(found, wanted).is_some() => {
                 format!("`{path}` is {found} where a whole number is wanted")
             }
             Mismatch::WrongType { found, wanted } => {
@@ -143,7 +143,7 @@ impl TypeError {
             Mismatch::UnknownAlternative { found, accepted } => suggestion(found, accepted),
             Mismatch::MissingKey(key) => format!("add `{key} = ...` there"),
             Mismatch::WrongType { found, wanted } => {
-                if let Some(value) = broken(self.mismatch()) {
+                if let Some(value) = broken(found, wanted) {
                     whole_example(value)
                 } else if wanted.starts_with("an array") {
                     array_example(found, wanted)
