@@ -16,6 +16,16 @@ pub fn one_line(text: &str) -> String {
     printable(&text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
+/// What is said of the region of a case that lacks one or its mesh.
+fn left_out(case: &Case) -> String {
+    match &case.left_out[..] {
+        [one] => format!(
+            "`{one}` is left out, which the full solver needs; --fidelity reduced runs the case"
+        ),
+        _ => "none: it runs by its reduced model".to_owned(),
+    }
+}
+
 /// What a case consists of, as lines `what  value`.
 pub fn facts(file: &CaseFile) -> String {
     let (case, model) = (file.case(), &file.model);
@@ -29,13 +39,8 @@ pub fn facts(file: &CaseFile) -> String {
         format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units.to_string()));
     line("geometry", units);
     line("fluid", fluid(case));
-    if let [missing] = &case.left_out[..] {
-        let value = format!(
-            "`{missing}` is left out, which the full solver needs; --fidelity reduced runs the case"
-        );
-        line("domain", value);
-    } else if case.is_reduced_only() {
-        line("domain", "none: it runs by its reduced model".to_owned());
+    if case.is_reduced_only() {
+        line("domain", left_out(case));
     } else {
         line("domain", domain(case));
         let sides = case.sides().into_iter().filter(|side| *side != "axis").map(|side| {

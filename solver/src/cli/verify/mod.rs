@@ -12,6 +12,7 @@ mod search;
 mod searched_case;
 mod states;
 mod sweep;
+mod table;
 
 use std::path::{Path, PathBuf};
 

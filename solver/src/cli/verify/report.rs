@@ -5,9 +5,9 @@ use std::fs;
 use serde_json::Value;
 
 use super::found::Found;
-use super::search::found_rows;
 use super::searched_case;
 use super::searched_case::is_same;
+use super::table::found_rows;
 use crate::case::CaseFile;
 use crate::cli::searched::{Kind, Named, SearchDirectory};
 use crate::optimise::Objective;

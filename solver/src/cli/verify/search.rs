@@ -4,6 +4,7 @@ use std::fs;
 
 use super::found::Found;
 use super::run::first_line;
+use super::table::found_rows;
 use super::{report, searched_case};
 use crate::cli::searched::{Named, SearchDirectory};
 
@@ -72,27 +73,4 @@ fn check_calibrated(search: &SearchDirectory, found: &mut Found) {
     });
     found.read(file, read);
     found_rows(search, "tracks.csv", false, found);
-}
-
-/// The rows of a table below its header, each with a cell a column; nothing where there is none, which is reported of a
-/// table that has to be there.
-pub(super) fn found_rows(
-    search: &SearchDirectory,
-    file: &str,
-    is_wanted: bool,
-    found: &mut Found,
-) -> Option<Vec<Vec<String>>> {
-    let path = search.path.join(file);
-    if !path.exists() && !is_wanted {
-        return None;
-    }
-    let text = found.read(file, fs::read_to_string(path))?;
-    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
-    let n_columns = lines.next().map_or(0, |header| header.len());
-    let rows: Vec<Vec<String>> = lines.collect();
-    if let Some(nth) = rows.iter().position(|row| row.len() != n_columns) {
-        found.wrong(file, format!("line {} has not {n_columns} cells", nth + 2));
-        return None;
-    }
-    Some(rows)
 }
