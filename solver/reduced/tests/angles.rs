@@ -1,7 +1,7 @@
 //! Angles of a planar body in a record, and pulses of its fibres.
 
 use alewife_reduced::search::Sought as _;
-use alewife_reduced::tier::{Kind, Model, Seeker, series};
+use alewife_reduced::tier::{Kind, Model, Seeker, TierError, series};
 
 use crate::bar::{BAR, Folder, agrees, record, sought};
 
@@ -64,4 +64,26 @@ fn angles_and_pulses_have_their_derivatives_too() {
     let change = table.last("bend.angle").expect("it is a column") - table.rows[0][13];
     assert_eq!(table.names[13], "bend.angle");
     assert!(change.abs() > 1e-3, "{change}");
+}
+
+#[test]
+fn degrees_that_are_read_as_radians_are_refused() {
+    let said = |text: &str, record: &str| {
+        let folder = Folder::new(text, record);
+        match Model::<2>::new(&folder.read(&[])) {
+            Err(TierError::Case(found)) => found[0].to_string(),
+            _ => String::new(),
+        }
+    };
+    let (case, record) = (pulsed(), bends());
+    assert_eq!(said(&case, &record), "");
+    let radians = case.replace("angle_unit = \"deg\"\n", "");
+    let found = said(&radians, &record);
+    assert!(found.contains("changes by -6.300 rad until row 11, more than a turn"), "{found}");
+    assert!(found.contains("angle_unit = \"deg\""), "{found}");
+    let (case, record) = (
+        radians.replace("column = \"bend\"", "column = \"bend (deg)\""),
+        record.replace("tip y,bend", "tip y,bend (deg)"),
+    );
+    assert!(said(&case, &record).contains("degrees by its name"), "{}", said(&case, &record));
 }

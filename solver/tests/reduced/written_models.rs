@@ -1,6 +1,6 @@
 //! Models of `MuJoCo` as people write them: several joints of a body, and geoms of which nothing is said.
 
-use alewife::reduced::{import, simulate};
+use alewife::reduced::{RobotFormat, export, import, simulate};
 
 use super::exchange::{WRITTEN, imported};
 
@@ -56,6 +56,14 @@ fn several_joints_of_a_body_move_it_as_one_that_is_free() {
     let found = import(&in_a_plane(joints), "plane.xml").unwrap();
     let notes: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
     assert!(notes.iter().any(|one| one.contains("trunk-1, trunk-2")), "{notes:?}");
+    let file = imported(&in_a_plane(joints), &[]);
+    let back = export(&file.model, "plane", RobotFormat::Mjcf).unwrap();
+    assert!(!back.text.contains("NaN"), "{}", back.text);
+    assert!(
+        back.notes.iter().any(|one| one.contains("\"trunk-1\" has no mass")),
+        "{:?}",
+        back.notes
+    );
     // The motor drives the joint it names
     let turned = found.text.split("[[joint]]").find(|text| text.contains("torque.constant"));
     assert!(turned.unwrap().contains("child = \"trunk\"\n"), "{}", found.text);

@@ -1,10 +1,12 @@
 //! What a record says of the markers and of the control of a soft case.
 
+use std::f64::consts::TAU;
+
 use crate::soft::{Gaps, Record, SoftError};
 
 use alewife_case::Diagnostic;
 use alewife_case::soft::SoftFile;
-use alewife_case::soft::spec::{RecordGaps, RecordSpec};
+use alewife_case::soft::spec::{AngleUnit, RecordGaps, RecordSpec};
 use alewife_case::soft::stretch::Stretch;
 
 /// Largest relative difference of the time between rows of a record from that of a frame.
@@ -169,6 +171,7 @@ impl Reader<'_> {
             let column = angle.column.as_ref().map(|name| self.column(&key, name)).transpose()?;
             if let Some(Signed { column, .. }) = column {
                 self.check_gaps(rows, column, &key)?;
+                self.check_unit(rows, column)?;
             }
             columns.push(column);
         }
@@ -181,6 +184,32 @@ impl Reader<'_> {
         };
         let frame = |row: &usize| columns.iter().map(|column| changed(*row, column)).collect();
         Ok(rows.iter().map(frame).collect())
+    }
+
+    /// Refuses angles that are degrees, by their name or as no bend changes by more than a turn, and are read as radians.
+    fn check_unit(&self, rows: &[usize], column: usize) -> Result<(), Diagnostic> {
+        let name = &self.record.names[column];
+        let is_deg = self.spec.angle_unit == AngleUnit::Deg;
+        let change =
+            |row: &usize| self.record.rows[*row][column] - self.record.rows[rows[0]][column];
+        let far = rows.iter().find(|row| change(row).abs() > TAU);
+        let message = match far {
+            _ if is_deg => return Ok(()),
+            _ if name.to_lowercase().contains("deg") => {
+                format!("`{name}` is a column of degrees by its name, and is read in radians")
+            }
+            Some(row) => {
+                let change = change(row);
+                format!(
+                    "`{name}` changes by {change:.3} rad until row {}, more than a turn",
+                    row + 2
+                )
+            }
+            None => return Ok(()),
+        };
+        let help =
+            "write record.angle_unit = \"deg\" if these are degrees, or another name of the column";
+        Err(self.file.error("record.angle_unit", message, help))
     }
 
     /// Refuses gaps in a column of a key, where they are not kept or are in the first frame.

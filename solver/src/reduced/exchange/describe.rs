@@ -126,7 +126,8 @@ impl Making<'_> {
         let solid = Solid::of(one, model.case.geometry)?;
         if part.mass == 0.0 {
             self.notes.push(format!(
-                "\"{}\" has no mass, which MuJoCo refuses of a body that moves: write a small one",
+                "\"{}\" has no mass, which MuJoCo and `alewife import` refuse of a body that moves: give it a small \
+                 `mass` in the case, and `inertia`",
                 one.name
             ));
         }

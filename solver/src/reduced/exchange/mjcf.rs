@@ -80,7 +80,8 @@ fn placed(element: Element, pose: &Pose<f64>) -> Element {
 fn put_body(robot: &Robot, number: usize, out: &mut Markup) {
     let body = &robot.bodies[number];
     let element = placed(Element::new("body").with("name", &body.name), &body.pose);
-    out.open(&element.unless_zero("gravcomp", body.displaced / body.mass));
+    let lift = if body.mass > 0.0 { body.displaced / body.mass } else { 0.0 };
+    out.open(&element.unless_zero("gravcomp", lift));
     if body.is_free {
         out.put(&Element::new("freejoint").with("name", &body.name));
     }
