@@ -170,9 +170,9 @@ mod tests {
             if periods < 0.0 { 0.0 } else { slopes[0].min(slopes[1]).clamp(0.0, 1.0) }
         };
         for span in [[0.0, 0.1], [0.1, 0.14], [0.2, 0.33], [0.3, 2.07], [0.4, 0.41]] {
-            let n = 100_000;
-            let time = |k: usize| span[0] + (span[1] - span[0]) * (k as f64 + 0.5) / f64::from(n);
-            let sum: f64 = (0..n as usize).map(|k| shape(2.0 * time(k) - 0.25)).sum();
+            let n = 100_000_u32;
+            let time = |k: u32| span[0] + (span[1] - span[0]) * (f64::from(k) + 0.5) / f64::from(n);
+            let sum: f64 = (0..n).map(|k| shape(2.0 * time(k) - 0.25)).sum();
             let wanted = 1.0 - 0.2 * sum / f64::from(n);
             assert!((PULSE.value(span) - wanted).abs() < 1e-6, "{span:?}");
         }
