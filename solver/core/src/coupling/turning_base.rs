@@ -353,6 +353,8 @@ mod tests {
         let power = (energy(&base.coordinates(&away(small)))
             - energy(&base.coordinates(&away(-small))))
             / (2.0 * small);
+        // Differences of an energy have its rounding over the step: 1e-8 for an energy of a hundred, and in space
+        // there are nine coordinates at a knot
         assert!((power - forces.dot(&rates)).abs() < 1e-7);
         const COEFFICIENT: f64 = 0.4;
         let all = |q: &DVector<f64>, v: &DVector<f64>| {
