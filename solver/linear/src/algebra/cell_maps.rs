@@ -10,19 +10,29 @@ use crate::sparse::Pattern;
 #[derive(Debug, Clone)]
 pub struct CellMaps {
     pattern: Arc<Pattern>,
-    entries: CellEntries,
+    /// None where the work of the thread was to end before they were known.
+    entries: Option<CellEntries>,
 }
 
 impl CellMaps {
     /// Pattern and maps for cells with these unknowns.
     ///
     /// `couples(i, j)` says whether two free unknowns of a cell have an entry (two pressures do
-    /// not), in whatever order they are named.
+    /// not), in whatever order they are named. Where the work of this thread is to end on the way, nothing is
+    /// stored: what solves such a system says so.
     #[must_use]
     pub fn new(cells: &CellUnknowns, couples: impl Fn(usize, usize) -> bool) -> Self {
-        let pattern = build_pattern(cells.n(), cells, &couples);
-        let entries = CellEntries::new(&pattern, cells);
-        Self { pattern: Arc::new(pattern), entries }
+        let known = build_pattern(cells.n(), cells, &couples).and_then(|pattern| {
+            let entries = CellEntries::new(&pattern, cells)?;
+            Some((pattern, entries))
+        });
+        match known {
+            Some((pattern, entries)) => Self { pattern: Arc::new(pattern), entries: Some(entries) },
+            None => {
+                let rows = (0..cells.n()).map(|_| []);
+                Self { pattern: Arc::new(Pattern::from_rows(rows)), entries: None }
+            }
+        }
     }
 
     /// The sparsity pattern of the constrained system.
@@ -33,12 +43,16 @@ impl CellMaps {
 
     /// Adds a cell's matrix, folded where it has to be, to the stored values.
     pub fn scatter(&self, cell: usize, matrix: &[f64], values: &mut [f64]) {
-        self.entries.for_each(cell, |local, entry| values[entry] += matrix[local]);
+        if let Some(entries) = &self.entries {
+            entries.for_each(cell, |local, entry| values[entry] += matrix[local]);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use alewife_interrupt::hearing;
+
     use super::*;
     use crate::algebra::constraints::Term;
     use crate::algebra::{CellFolds, ConstraintBuilder};
@@ -98,9 +112,30 @@ mod tests {
                 }
             }
             let mut entries = Vec::new();
-            maps.entries.for_each(cell, |local, entry| entries.push((local, entry)));
+            maps.entries
+                .as_ref()
+                .unwrap()
+                .for_each(cell, |local, entry| entries.push((local, entry)));
             assert_eq!(entries, expected);
         }
+    }
+
+    /// Where the work is to end nothing is stored, and the solver of the system says so.
+    #[test]
+    fn work_that_is_to_end_stores_nothing() {
+        let constraints = ConstraintBuilder::new(300).build();
+        let cells: Vec<u32> = (0..299).flat_map(|cell| [cell, cell + 1]).collect();
+        let folds = CellFolds::new(2, cells, &constraints);
+        let unknowns = folds.unknowns(&constraints);
+        let whole = CellMaps::new(&unknowns, |_, _| true);
+        assert_eq!(whole.pattern().n_entries(), 300 + 2 * 299);
+        let heard = hearing(Arc::new(|| true), || {
+            let maps = CellMaps::new(&unknowns, |_, _| true);
+            maps.scatter(298, &[1.0; 4], &mut []);
+            (maps.pattern().n(), maps.pattern().n_entries())
+        });
+        assert!(heard.was_ended);
+        assert_eq!(heard.result, (300, 0));
     }
 
     /// Two cells in a row whose last unknown is given.

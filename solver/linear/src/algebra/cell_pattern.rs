@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use alewife_interrupt::is_requested;
+
 use super::cell_unknowns::{CellUnknowns, NO_UNKNOWN};
 use crate::sparse::Pattern;
 use crate::sparse::index::{to_u8, to_u32};
@@ -64,17 +66,20 @@ impl Runs {
     }
 }
 
-/// Rows of all pairs of unknowns that share a cell and couple.
+/// Rows of all pairs of unknowns that share a cell and couple; None where the work of this thread is to end.
 pub(super) fn build_pattern(
     n: usize,
     unknowns: &CellUnknowns,
     couples: &impl Fn(usize, usize) -> bool,
-) -> Pattern {
+) -> Option<Pattern> {
     let cells = unknowns.by_cells().inverted(n);
     let runs = Runs::new(n, |unknown| cells.list(unknown) == cells.list(unknown - 1));
     let mut of_cells = Lists::default();
     let mut distinct = Vec::new();
     for cell in unknowns.cells() {
+        if is_requested() {
+            return None;
+        }
         runs.distinct(cell, &mut distinct);
         of_cells.push(distinct.iter().copied());
     }
@@ -83,6 +88,9 @@ pub(super) fn build_pattern(
     let mut near: Vec<u32> = Vec::new();
     let mut columns: Vec<u32> = Vec::new();
     for run in 0..to_u32(runs.n()) {
+        if is_requested() {
+            return None;
+        }
         near.clear();
         for &cell in cells.list(runs.unknowns(run).start) {
             for &other in of_cells.list(cell as usize) {
@@ -101,7 +109,7 @@ pub(super) fn build_pattern(
         }
     }
     pattern.shrink();
-    pattern
+    Some(pattern)
 }
 
 /// Where the matrices of cells go: for each two runs of unknowns of a cell the first entry that they have.
@@ -137,8 +145,8 @@ const GIVEN: u8 = u8::MAX;
 const NOT_STORED: u32 = u32::MAX;
 
 impl CellEntries {
-    /// In a pattern with the transposed of each of its entries.
-    pub fn new(pattern: &Pattern, unknowns: &CellUnknowns) -> Self {
+    /// In a pattern with the transposed of each of its entries; None where the work of this thread is to end.
+    pub fn new(pattern: &Pattern, unknowns: &CellUnknowns) -> Option<Self> {
         let runs = Runs::new(pattern.n(), |unknown| pattern.is_like_last(unknown));
         let mut all = Self {
             place_offsets: vec![0],
@@ -150,6 +158,9 @@ impl CellEntries {
         };
         let mut distinct = Vec::new();
         for cell in unknowns.cells() {
+            if is_requested() {
+                return None;
+            }
             runs.distinct(cell, &mut distinct);
             all.places.extend(cell.iter().map(|&unknown| runs.place(unknown, &distinct)));
             all.place_offsets.push(all.places.len());
@@ -166,7 +177,7 @@ impl CellEntries {
         }
         all.lengths.shrink_to_fit();
         all.first.shrink_to_fit();
-        all
+        Some(all)
     }
 
     /// Calls `visit` with the place of each stored entry in the matrix of a cell, which is column by column,
