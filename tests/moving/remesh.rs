@@ -39,6 +39,60 @@ fn forces_go_on_smoothly_across_a_new_mesh() {
     assert!(jumps.iter().all(|jump| *jump < 0.01), "{jumps:?}");
 }
 
+/// Velocities without inertia differ from mesh to mesh by what the meshes leave, and no shorter step helps against that.
+#[test]
+fn steps_by_their_error_are_no_shorter_on_a_new_mesh() {
+    let plane = r#"
+        title = "two pullers that turn away, on a coarse mesh"
+        geometry = "planar"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.box = { min = [-12.0, -10.0], max = [12.0, 10.0] }
+        boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+        mesh = { size = 2.5, surface = 0.25, growth = 0.3, gap_layers = 3 }
+        time.unsteady = { end = 3.5 }
+        contact.barrier = { range = 0.1, stiffness = 200.0 }
+        [[body]]
+        name = "a"
+        shape.disc = { radius = 1.0 }
+        center = [-3.0, 0.0]
+        motion = "free"
+        gait.squirmer = { modes = [2.0, 4.0] }
+        [[body]]
+        name = "b"
+        shape.disc = { radius = 1.0 }
+        center = [3.0, 1.5]
+        motion = "free"
+        gait.squirmer = { modes = [2.0, 4.0], heading = "180 deg" }
+        "#;
+    let axis = r#"
+        title = "a puller along the axis of a short tube"
+        geometry = "axisymmetric"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.cylinder = { x = [-4.0, 4.0], radius = 2.5 }
+        boundary = { left = "no-slip", right = "no-slip", wall = "no-slip" }
+        mesh = { size = 1.5, surface = 0.4, growth = 0.5, moving.quality = 0.8 }
+        time.unsteady = { end = 6.0 }
+        [[body]]
+        name = "a"
+        shape.sphere = { radius = 1.0 }
+        center = [-2.5, 0.0]
+        motion = "free"
+        gait.squirmer = { modes = [1.5, 4.0] }
+        "#;
+    for text in [plane, axis] {
+        let outcome = run(&case(text));
+        let (time, remeshes) = (column(&outcome, "time"), column(&outcome, "flow.remeshes"));
+        let mut shares = Vec::new();
+        for step in 2..time.len() - 2 {
+            if remeshes[step] > remeshes[step - 1] {
+                shares.push((time[step] - time[step - 1]) / (time[step - 1] - time[step - 2]));
+            }
+        }
+        assert!(shares.len() >= 2, "{} meshes", shares.len());
+        assert!(shares.iter().all(|share| *share > 0.2), "{shares:?}");
+    }
+}
+
 /// Sums the momentum of the fluid, step by step.
 struct Momentum(Arc<Mutex<Vec<[f64; 2]>>>);
 

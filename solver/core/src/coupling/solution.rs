@@ -23,6 +23,16 @@ pub struct Solution<const D: usize> {
 }
 
 impl<const D: usize> Solution<D> {
+    /// Changes the velocities of bodies by what those of two flows differ by.
+    pub fn shift_bodies(&mut self, from: &Self, to: &Self) {
+        let twists = from.twists.iter().zip(&to.twists);
+        for (own, (from, to)) in self.twists.iter_mut().zip(twists) {
+            *own = Twist::from_vector(&(own.to_vector() + to.to_vector() - from.to_vector()));
+        }
+        let rates = from.rates.iter().zip(&to.rates);
+        self.rates.iter_mut().zip(rates).for_each(|(own, (from, to))| *own += to - from);
+    }
+
     /// Everything at rest.
     #[must_use]
     pub fn at_rest(layout: &DofLayout<D>) -> Self {

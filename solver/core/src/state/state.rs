@@ -209,6 +209,14 @@ impl<const D: usize> State<D> {
         own.remeshes += 1;
     }
 
+    /// Gives the state the flow that its mesh has at present, where velocities have no memory; those of bodies one step
+    /// before are changed by as much.
+    pub fn replace_flow(&mut self, now: Solution<D>) {
+        let own = &mut self.0;
+        own.previous.shift_bodies(&own.now, &now);
+        own.now = now;
+    }
+
     /// The same without what is known from elsewhere or follows from the rest, as a file has it: boundaries and nodes of
     /// the mesh, single contacts.
     #[must_use]

@@ -1,20 +1,22 @@
 //! `Simulation`: problem, state and workspace; a step of a given size, on a new mesh where needed.
 
+mod new_mesh;
+
 use alewife_interrupt::Stopped;
 use alewife_mesh::{CellId, NodeId};
 use rayon::prelude::*;
 
-use super::build::{Scalars, Tracers};
-use super::error::RunError;
-use super::step_control::StepControl;
-use super::watch::{AtHand, CellBound, nearest_gap};
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
 use crate::coupling::{
     BodiesAt, BodyLoads, BodyShapes, FluidSystem, MeshedBodies, Problem, ResidualAt, RestPlaces,
     SolverChoice, SurfaceLoads,
 };
-use crate::motion::{MovingMesh, RemeshError, replace_mesh};
+use crate::motion::MovingMesh;
+use crate::run::build::{Scalars, Tracers};
+use crate::run::error::RunError;
+use crate::run::step_control::StepControl;
+use crate::run::watch::CellBound;
 use crate::scalar::Level;
 use crate::state::{NewLevel, State};
 use crate::step::{
@@ -86,7 +88,7 @@ pub enum Attempt {
 ///
 /// # Errors
 /// When coordinates of a body give it no shape, and those of `look`.
-pub(super) fn fluid_system<const D: usize>(
+pub(in crate::run) fn fluid_system<const D: usize>(
     problem: &Problem<D>,
     state: &State<D>,
     moving: Option<&MovingMesh<D>>,
@@ -107,6 +109,18 @@ pub(super) fn fluid_system<const D: usize>(
     let rest_places = moving.rest_places(shapes);
     let bodies = MeshedBodies { at: BodiesAt { poses, shapes }, rest_places };
     Ok(FluidSystem::with_bodies(problem, &state.mesh, bodies, unknown_frame, choice, look)?)
+}
+
+/// What makes the steps of a simulation.
+pub(in crate::run) fn stepper<'a, const D: usize>(
+    problem: &'a Problem<D>,
+    scheme: StepScheme,
+    moving: Option<&'a MovingMesh<D>>,
+    contact: Option<&'a Law>,
+    stop: Option<&'a StopRequest>,
+) -> TimeStepper<'a, D> {
+    let path = moving.map_or(MeshPath::Fixed, MeshPath::FollowsBodies);
+    TimeStepper { problem, convection: scheme.convection, path, contact, stop }
 }
 
 /// Scalars after a step, and the differences it was made by.
@@ -144,7 +158,7 @@ impl<const D: usize> Simulation<D> {
     pub fn try_step(&mut self, size: f64, tolerance: f64) -> Result<Attempt, RunError> {
         // Not after the step before: what was measured belongs to its mesh
         if !self.is_fresh {
-            self.remesh_where_needed()?;
+            self.remesh_where_needed(tolerance)?;
         }
         loop {
             let (step, time) = (self.state.step + 1, self.state.time + size);
@@ -159,7 +173,7 @@ impl<const D: usize> Simulation<D> {
                     return Err(RunError::Contact { step, time, reason: Box::new(reason) });
                 }
                 Err(error @ StepError::DegenerateCell { .. }) if !self.is_fresh => {
-                    self.remesh(&error.to_string())?;
+                    self.remesh(&error.to_string(), tolerance)?;
                 }
                 Err(error) => {
                     tracing::info!(step, time, size, %error, "step rejected");
@@ -180,13 +194,7 @@ impl<const D: usize> Simulation<D> {
     /// Makes a step, or leaves the state where it is.
     fn attempt(&mut self, size: f64, tolerance: f64) -> Result<StepReport, StepError> {
         let Self { problem, state, work, moving_mesh, law, scheme, stop, .. } = self;
-        let stepper = TimeStepper {
-            problem,
-            convection: scheme.convection,
-            path: moving_mesh.as_ref().map_or(MeshPath::Fixed, MeshPath::FollowsBodies),
-            contact: law.as_ref(),
-            stop: stop.as_ref(),
-        };
+        let stepper = stepper(problem, *scheme, moving_mesh.as_ref(), law.as_ref(), stop.as_ref());
         let before = if scheme.method == Scheme::Bdf2 { state.last_step } else { 0.0 };
         let bdf = Bdf::after(size, before);
         let StepResult { level, report } = match scheme.method {
@@ -228,66 +236,15 @@ impl<const D: usize> Simulation<D> {
         Ok(report)
     }
 
-    fn remesh_where_needed(&mut self) -> Result<(), RunError> {
-        let Self { problem, state, work, moving_mesh: Some(moving), .. } = self else {
-            return Ok(());
-        };
-        let shapes = BodyShapes::with(&problem.bodies, state.time, &state.shapes.now)?;
-        let reason =
-            work.timing.measure(Stage::MeshMotion, || moving.remesh_reason(state, &shapes));
-        match reason {
-            None => Ok(()),
-            Some(reason) => self.remesh(&reason),
-        }
-    }
-
-    fn remesh(&mut self, reason: &str) -> Result<(), RunError> {
-        let Self {
-            problem, state, work, moving_mesh: Some(moving), scheme, law, cell_bound, ..
-        } = self
-        else {
-            return Ok(());
-        };
-        let (step, time) = (state.step, state.time);
-        let n_cells = state.mesh.n_cells();
-        let at_hand = AtHand { n_cells, is_iterative: work.system.is_iterative() };
-        let allowed = cell_bound.allowed::<D>(at_hand);
-        let most = allowed.cells();
-        let made = work.timing.measure(Stage::Mesh, || replace_mesh(problem, state, moving, most));
-        *moving = made.map_err(|error| match error {
-            RemeshError::TooManyCells { n_cells, .. } => RunError::MeshTooLarge {
-                step,
-                time,
-                n_cells,
-                allowed,
-                reason: reason.to_owned(),
-                nearest: nearest_gap(state, moving),
-                closes: law.is_none(),
-            },
-            error => RunError::Remesh { step, time, reason: Box::new(error) },
-        })?;
-        tracing::info!(step, time, cells = state.mesh.n_cells(), reason, "remeshed");
-        if let Some(scalars) = &mut self.scalars {
-            scalars.forget_mesh();
-        }
-        work.mesh = state.mesh.clone();
-        work.system = work.timing.measure(Stage::Assembly, || {
-            // A state on a new mesh with the solver of the old one would not be one
-            fluid_system(problem, state, Some(moving), scheme.unknown_frame, || Ok(()))
-        })?;
-        self.is_fresh = true;
-        Ok(())
-    }
-
     /// Releases the tracers that are there at the start.
-    pub(super) fn begin_tracers(&mut self) {
+    pub(in crate::run) fn begin_tracers(&mut self) {
         if let Some(tracers) = &self.tracers {
             self.state.carry_tracers(|state, clouds| tracers.begin(state, clouds));
         }
     }
 
     /// Gives scalars their values at the start.
-    pub(super) fn begin_scalars(&mut self) {
+    pub(in crate::run) fn begin_scalars(&mut self) {
         if let Some(scalars) = &self.scalars {
             let fields = scalars.at_start(&self.state);
             self.state.begin_scalars(fields);
@@ -298,7 +255,7 @@ impl<const D: usize> Simulation<D> {
     ///
     /// # Errors
     /// When nothing determines them.
-    pub(super) fn solve_steady_scalars(&mut self) -> Result<(), RunError> {
+    pub(in crate::run) fn solve_steady_scalars(&mut self) -> Result<(), RunError> {
         self.begin_scalars();
         let Self { problem, state, work, scalars: Some(scalars), .. } = self else {
             return Ok(());
