@@ -14,6 +14,7 @@ mod rounds;
 mod series;
 mod solid;
 mod surface;
+mod written;
 
 pub use compare::{Compared, compare};
 pub use evaluate::{Kind, Seeker, WayAndWork};
@@ -25,3 +26,4 @@ pub use output::{fingerprint, write_case};
 pub use parameters::Sought;
 pub use rounds::{Perturbed, Robot, Round, Rounds, Seen, settings};
 pub use series::{Series, series};
+pub use written::Written;

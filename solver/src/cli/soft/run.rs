@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use alewife_reduced::search::write_whole;
 use alewife_reduced::tier::{
-    Bodies, Compared, Model, SolidOf, TierError, compare, series, write_case, write_fields,
+    Bodies, Compared, Model, SolidOf, TierError, Written, compare, write_case,
 };
 
 use super::directory::{make_ready, not_written, prepare};
@@ -43,7 +43,7 @@ pub fn run(file: &SoftFile, place: Place) -> Result<Exit, Failure> {
 
 fn moved<const D: usize>(file: &SoftFile, place: Place) -> Result<Exit, Failure>
 where
-    Bodies: SolidOf<D>,
+    Bodies: SolidOf<D> + Written<D>,
 {
     let Place { out, overwrite, compares, lock } = place;
     let out = out.unwrap_or_else(|| Path::new("runs").join(file.directory_name()));
@@ -61,7 +61,7 @@ where
     let run = Motion { fidelity: MODEL, steps, end, dofs };
     let record = MotionRecord::begin(&out, &run).map_err(failed)?;
     let made = Bodies::simulate(&model.body, &model.plan)
-        .and_then(|motion| Ok((series(&model, &motion)?, motion)));
+        .and_then(|motion| Ok((Bodies::series(&model, &motion)?, motion)));
     let (table, motion) = match made {
         Ok(made) => made,
         Err(error) => {
@@ -75,7 +75,7 @@ where
     } else {
         Vec::new()
     };
-    write_fields(&out, &model, &motion).map_err(failed)?;
+    Bodies::write_fields(&out, &model, &motion).map_err(failed)?;
     write_whole(&out.join("series.csv"), table.to_csv()).map_err(failed)?;
     write_comparison(&out, &compared)?;
     record.finish(&run).map_err(failed)?;
