@@ -1,8 +1,7 @@
 //! `Direct`: stress and tangent of laws that are functions of the deformation itself, without its principal frame.
 
-use nalgebra::SMatrix;
-
-use super::{Lame, Law, Stress, Tangent, Tensor, green};
+use super::parts::{Dyad, TangentParts};
+use super::{Lame, Law, Stress, Tensor, green};
 
 /// A deformation gradient F with its volume ratio J and what follows from these.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,13 +14,6 @@ pub struct Direct {
     volume: f64,
     /// ln J; no number in a cell that is turned over.
     log_volume: f64,
-}
-
-/// Factors of tangents made of the dyad T_iJ T_kL of a tensor T, its crossed dyad T_iL T_kJ and others.
-#[derive(Debug, Clone, Copy)]
-struct Dyads {
-    straight: f64,
-    crossed: f64,
 }
 
 impl Direct {
@@ -95,55 +87,33 @@ impl Direct {
 
     /// Derivatives of the stress by the deformation gradient (Pa), less those of a pressure (Pa) times the volume
     /// ratio.
-    pub(super) fn tangent(&self, law: Law, lame: Lame, pressure: f64) -> Tangent {
+    pub(super) fn tangent(&self, law: Law, lame: Lame, pressure: f64) -> TangentParts {
         let Lame { shear: mu, volume: la } = lame;
         let volume = self.volume;
         if law != Law::SaintVenantKirchhoff {
-            let inverse = self.cofactor / volume;
             let straight = la - pressure * volume;
             let crossed = mu - la * self.log_volume + pressure * volume;
-            let mut tangent = dyads(&inverse, Dyads { straight, crossed });
-            (0..9).for_each(|k| tangent[(k, k)] += mu);
-            return tangent;
+            let inverse = Dyad { tensor: self.cofactor / volume, straight, crossed };
+            return TangentParts {
+                dyads: [Some(inverse), None],
+                space: Tensor::identity() * mu,
+                body: Tensor::zeros(),
+            };
         }
         let f = &self.gradient;
         let strain = green(f);
-        let second = strain * (2.0 * mu) + Tensor::identity() * (la * strain.trace());
-        let left = f * f.transpose() * mu;
-        let mut tangent = dyads(f, Dyads { straight: la, crossed: mu });
-        for i in 0..3 {
-            for k in 0..3 {
-                for j in 0..3 {
-                    tangent[(3 * i + j, 3 * k + j)] += left[(i, k)];
-                    tangent[(3 * i + j, 3 * i + k)] += second[(k, j)];
-                }
-            }
+        let part = pressure / volume;
+        let kept = Dyad { tensor: self.cofactor, straight: -part, crossed: part };
+        TangentParts {
+            dyads: [
+                Some(Dyad { tensor: *f, straight: la, crossed: mu }),
+                (pressure != 0.0).then_some(kept),
+            ],
+            space: f * f.transpose() * mu,
+            body: strain * (2.0 * mu) + Tensor::identity() * (la * strain.trace()),
         }
-        if pressure != 0.0 {
-            let part = pressure / volume;
-            tangent += dyads(&self.cofactor, Dyads { straight: -part, crossed: part });
-        }
-        tangent
     }
 }
 
 /// The other two axes, in the order of a right-handed frame.
 const OTHERS: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
-
-/// The sum of multiples of T_iJ T_kL and T_iL T_kJ.
-fn dyads(tensor: &Tensor, Dyads { straight, crossed }: Dyads) -> Tangent {
-    let t = tensor;
-    let mut sum = SMatrix::<f64, 9, 9>::zeros();
-    for k in 0..3 {
-        for l in 0..3 {
-            let one = straight * t[(k, l)];
-            for i in 0..3 {
-                let other = crossed * t[(i, l)];
-                for j in 0..3 {
-                    sum[(3 * i + j, 3 * k + l)] = one * t[(i, j)] + other * t[(k, j)];
-                }
-            }
-        }
-    }
-    sum
-}

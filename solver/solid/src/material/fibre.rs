@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::{Curvature, Tangent, Tensor};
+use super::parts::{Dyad, TangentParts};
+use super::{Curvature, Tensor};
 
 /// Fibres along a direction m of the body at rest, with the energy w/2 (|F m| - a)^2 a volume: they pull where
 /// longer than a times their length at rest, and push where shorter.
@@ -45,7 +46,7 @@ impl Fibre {
 
     /// Derivatives of the stress by the deformation gradient (Pa).
     #[must_use]
-    pub fn tangent(&self, deformation: &Tensor, curvature: Curvature) -> Tangent {
+    pub fn tangent(&self, deformation: &Tensor, curvature: Curvature) -> TangentParts {
         let fibre = deformation * self.direction;
         let stretch = fibre.norm();
         let along = fibre / stretch;
@@ -54,11 +55,15 @@ impl Fibre {
             Curvature::Positive => (1.0 - self.target / stretch).max(0.0),
         };
         let m = &self.direction;
-        Tangent::from_fn(|row, column| {
-            let (i, k) = (row / 3, column / 3);
-            let same = if i == k { across } else { 0.0 };
-            let block = same + (1.0 - across) * along[i] * along[k];
-            self.stiffness * block * m[row % 3] * m[column % 3]
-        })
+        let dyad = Dyad {
+            tensor: along * m.transpose(),
+            straight: self.stiffness * (1.0 - across),
+            crossed: 0.0,
+        };
+        TangentParts {
+            dyads: [Some(dyad), None],
+            space: Tensor::zeros(),
+            body: m * m.transpose() * (self.stiffness * across),
+        }
     }
 }

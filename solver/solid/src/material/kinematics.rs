@@ -1,6 +1,7 @@
 //! `Kinematics`: what a law asks of a deformation, its volume ratio and cofactor alone or its singular values.
 
 use super::direct::Direct;
+use super::parts::TangentParts;
 use super::{Curvature, Lame, Law, Principal, Stress, Tangent, Tensor};
 
 /// A deformation gradient, made ready for a law.
@@ -59,6 +60,23 @@ impl Kinematics {
         }
     }
 
+    /// The same derivatives as [`Self::tangent`] by what they are made of, where that is known: for laws that are
+    /// functions of the deformation itself, the positive part aside.
+    pub(crate) fn parts(
+        &self,
+        law: Law,
+        lame: Lame,
+        pressure: Option<f64>,
+        curvature: Curvature,
+    ) -> Option<TangentParts> {
+        match self {
+            Self::Direct(direct) if curvature == Curvature::True => {
+                Some(direct.tangent(law, lame, pressure.unwrap_or(0.0)))
+            }
+            _ => None,
+        }
+    }
+
     /// Derivatives of the stress by the deformation gradient (Pa), of an energy less a pressure (Pa) times the volume
     /// ratio where there is one.
     #[must_use]
@@ -80,7 +98,7 @@ impl Kinematics {
                 let frame = (curvature == Curvature::Positive)
                     .then(|| Principal::of(direct.gradient()))
                     .flatten();
-                let whole = || direct.tangent(law, lame, pressure.unwrap_or(0.0));
+                let whole = || direct.tangent(law, lame, pressure.unwrap_or(0.0)).whole();
                 frame.as_ref().map_or_else(whole, by)
             }
         }

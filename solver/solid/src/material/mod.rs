@@ -6,6 +6,7 @@ mod kinematics;
 mod law;
 mod moduli;
 mod pairs;
+mod parts;
 mod principal;
 #[cfg(test)]
 mod tests;
@@ -18,6 +19,7 @@ pub use kinematics::Kinematics;
 pub use law::{Lame, Law};
 pub use moduli::{Material, MaterialError};
 pub use pairs::Moduli;
+pub use parts::{Dyad, TangentParts};
 pub use principal::{Principal, Stress};
 pub use viscous::Viscous;
 pub(crate) use viscous::green;

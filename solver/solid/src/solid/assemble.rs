@@ -1,12 +1,13 @@
 //! Energy, forces and stiffness of a solid, summed over the quadrature points of its cells.
 
 use alewife_mesh::Point;
-use nalgebra::SVector;
 
 use super::build::Solid;
-use super::geometry::{At, MAX_NODES, MAX_PLACES, MAX_UNKNOWNS};
+use super::geometry::{At, CellMatrix, MAX_NODES, MAX_PLACES, MAX_UNKNOWNS};
 use super::rigid::pose::Pose;
-use crate::material::{Curvature, Fibre, Kinematics, Law, Stress, Tangent, Tensor, Viscous, green};
+use crate::material::{
+    Curvature, Fibre, Kinematics, Lame, Law, Stress, Tangent, Tensor, Viscous, green,
+};
 
 /// Green's strain as the backward difference of a step has it from levels before.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,9 +45,9 @@ pub(super) struct Stiffness {
 
 /// A deformation gradient with what the law asks of it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Deformed {
+pub(super) struct Deformed<'a> {
     deformation: Tensor,
-    kinematics: Kinematics,
+    kinematics: &'a Kinematics,
     pressure: Option<f64>,
 }
 
@@ -55,7 +56,7 @@ pub(super) struct Response<'a, const D: usize> {
     solid: &'a Solid<D>,
     cell: usize,
     deformation: Tensor,
-    kinematics: Kinematics,
+    kinematics: &'a Kinematics,
     viscous: Option<Viscous>,
     pressure: Option<f64>,
     controls: Controls<'a>,
@@ -67,7 +68,7 @@ impl<'a, const D: usize> Response<'a, D> {
         cell: usize,
         number: usize,
         controls: Controls<'a>,
-        at: Deformed,
+        at: Deformed<'a>,
     ) -> Self {
         let viscosity = solid.spec.materials[solid.material_of(cell)].viscosity;
         let viscous = controls.damping.filter(|_| viscosity > 0.0).map(|history| Viscous {
@@ -110,7 +111,7 @@ impl<'a, const D: usize> Response<'a, D> {
 
     /// What the law asks of the deformation.
     pub(super) fn kinematics(&self) -> &Kinematics {
-        &self.kinematics
+        self.kinematics
     }
 
     /// Energy and first Piola-Kirchhoff stress of all together.
@@ -135,39 +136,57 @@ impl<'a, const D: usize> Response<'a, D> {
 
     /// Derivatives of the stress by the deformation gradient (Pa).
     pub(super) fn tangent(&self, curvature: Curvature) -> Tangent {
-        let material = self.solid.material_of(self.cell);
-        let law = self.solid.spec.materials[material].law;
-        let lame = self.solid.lame[material];
+        let (law, lame) = self.law();
         let mut tangent = self.kinematics.tangent(law, lame, self.pressure, curvature);
         for (_, fibre) in self.fibres() {
-            tangent += fibre.tangent(&self.deformation, curvature);
+            tangent += fibre.tangent(&self.deformation, curvature).whole();
         }
         if let Some(viscous) = &self.viscous {
             tangent += viscous.tangent(&self.deformation, curvature);
         }
         tangent
     }
+
+    /// Adds a multiple of the stiffness to the lower triangle of the matrix of the cell.
+    fn add_stiffness(&self, at: &At<'_, D>, wanted: Stiffness, matrix: &mut CellMatrix) {
+        let Stiffness { curvature, factor } = wanted;
+        let (law, lame) = self.law();
+        let parts = self.kinematics.parts(law, lame, self.pressure, curvature);
+        let Some(parts) = parts.filter(|_| self.viscous.is_none() && at.curvature == 0.0) else {
+            return at.add_tangent(&self.tangent(curvature), factor, matrix);
+        };
+        at.add_parts(&parts, factor, matrix);
+        for (_, fibre) in self.fibres() {
+            at.add_parts(&fibre.tangent(&self.deformation, curvature), factor, matrix);
+        }
+    }
+
+    /// The law of the point and its moduli.
+    fn law(&self) -> (Law, Lame) {
+        let material = self.solid.material_of(self.cell);
+        (self.solid.spec.materials[material].law, self.solid.lame[material])
+    }
 }
 
 impl<const D: usize> Solid<D> {
     /// Calls `visit` for all quadrature points of a state; false where a cell is turned over, with the points
     /// before it visited.
-    pub(super) fn each_point<'a>(
-        &'a self,
+    pub(super) fn each_point(
+        &self,
         places: &[f64],
-        controls: Controls<'a>,
-        visit: impl FnMut(usize, At<'a, D>, Response<'a, D>),
+        controls: Controls<'_>,
+        visit: impl FnMut(usize, At<'_, D>, Response<'_, D>),
     ) -> bool {
         self.each_known_point(places, controls, &[], visit)
     }
 
     /// The same with what laws ask of deformations known, of all points or of none.
-    pub(super) fn each_known_point<'a>(
-        &'a self,
+    pub(super) fn each_known_point(
+        &self,
         places: &[f64],
-        controls: Controls<'a>,
+        controls: Controls<'_>,
         known: &[Kinematics],
-        mut visit: impl FnMut(usize, At<'a, D>, Response<'a, D>),
+        mut visit: impl FnMut(usize, At<'_, D>, Response<'_, D>),
     ) -> bool {
         let mut local = [Point::<D>::zeros(); MAX_NODES];
         for cell in 0..self.spec.mesh.n_cells() {
@@ -177,9 +196,13 @@ impl<const D: usize> Solid<D> {
                 let at = self.points.at(cell, k);
                 let deformation = at.deformation(local);
                 let number = cell * self.points.n_points + k;
-                let found = known.get(number).copied();
-                let Some(kinematics) = found.or_else(|| Kinematics::of(law, &deformation)) else {
-                    return false;
+                let new;
+                let kinematics = if let Some(known) = known.get(number) {
+                    known
+                } else {
+                    let Some(found) = Kinematics::of(law, &deformation) else { return false };
+                    new = found;
+                    &new
                 };
                 let pressure = self.pressures.at(cell, at.shares, places);
                 let deformed = Deformed { deformation, kinematics, pressure };
@@ -263,16 +286,15 @@ impl<const D: usize> Solid<D> {
         wanted: Stiffness,
         values: &mut [f64],
     ) -> bool {
-        let Stiffness { curvature, factor } = wanted;
         let pose = self.pose(places);
         let last = self.points.n_points - 1;
         let mut matrix = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
         let n = D * self.points.n_local + if self.pattern.is_mixed() { D + 1 } else { 0 };
         let mut point = 0;
         self.each_known_point(places, controls, known, |cell, at, response| {
-            add_point(&at, &response.tangent(curvature), factor, &mut matrix);
+            response.add_stiffness(&at, wanted, &mut matrix);
             if response.pressure().is_some() {
-                add_volume(&at, &response.kinematics().cofactor(), factor, &mut matrix);
+                at.add_volume(&response.kinematics().cofactor(), wanted.factor, &mut matrix);
             }
             if point == last {
                 self.pattern.add_cell(cell, values, |p, q| matrix[p][q]);
@@ -290,13 +312,7 @@ impl<const D: usize> Solid<D> {
     }
 
     /// Adds what the matrix of a cell beside rigid parts has of their nodes.
-    fn add_tied(
-        &self,
-        cell: usize,
-        pose: &Pose<'_, D>,
-        matrix: &[[f64; MAX_UNKNOWNS]; MAX_UNKNOWNS],
-        values: &mut [f64],
-    ) {
+    fn add_tied(&self, cell: usize, pose: &Pose<'_, D>, matrix: &CellMatrix, values: &mut [f64]) {
         let places = self.nodes_of(cell).iter().flat_map(|node| node * D..(node + 1) * D);
         let all: Vec<usize> = places.chain(self.pressures.of(cell).iter().copied()).collect();
         for p in 0..all.len() {
@@ -315,53 +331,5 @@ impl<const D: usize> Solid<D> {
             }
         }
         StrainHistory { rate, strains }
-    }
-}
-
-/// Adds the stiffness of a quadrature point to the lower triangle of the matrix of its cell.
-fn add_point<const D: usize>(
-    at: &At<'_, D>,
-    tangent: &Tangent,
-    factor: f64,
-    matrix: &mut [[f64; MAX_UNKNOWNS]; MAX_UNKNOWNS],
-) {
-    let weight = factor * at.weight;
-    for (a, slope) in at.gradients.iter().enumerate() {
-        for i in 0..D {
-            let mut row = SVector::<f64, 9>::zeros();
-            for j in 0..D {
-                row += tangent.column(3 * i + j) * (weight * slope[j]);
-            }
-            if at.curvature > 0.0 && i == 1 {
-                row += tangent.column(8) * (weight * at.shapes[a] * at.curvature);
-            }
-            let entries = &mut matrix[a * D + i];
-            for (b, other) in at.gradients[..=a].iter().enumerate() {
-                for k in 0..D {
-                    let sum: f64 = (0..D).map(|l| row[3 * k + l] * other[l]).sum();
-                    entries[b * D + k] += sum;
-                }
-                if at.curvature > 0.0 {
-                    entries[b * D + 1] += row[8] * at.shapes[b] * at.curvature;
-                }
-            }
-        }
-    }
-}
-
-/// Adds how the volume of a quadrature point changes by the places of its cell, by the pressures at the vertices.
-fn add_volume<const D: usize>(
-    at: &At<'_, D>,
-    cofactor: &Tensor,
-    factor: f64,
-    matrix: &mut [[f64; MAX_UNKNOWNS]; MAX_UNKNOWNS],
-) {
-    let mut slopes = [0.0; MAX_PLACES];
-    at.add_forces(cofactor, &mut slopes);
-    let n = D * at.shapes.len();
-    for (entries, share) in matrix[n..].iter_mut().zip(at.shares) {
-        for (entry, slope) in entries.iter_mut().zip(&slopes[..n]) {
-            *entry -= factor * share * slope;
-        }
     }
 }

@@ -4,6 +4,7 @@
 //! exist in any order of elimination where K is positive (@vanderbei1995), and a few corrections take C away again.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -84,7 +85,8 @@ struct Corrected {
 }
 
 impl Cholesky {
-    /// Analyses a pattern.
+    /// Analyses a pattern. Positive matrices are factorised by supernodes, which faer prefers for larger ones only: of
+    /// 693 to 2769 unknowns in space a motion takes 2 to 12 % less so.
     ///
     /// # Errors
     /// [`SolidError::Singular`] where memory is short.
@@ -92,11 +94,16 @@ impl Cholesky {
         let n = pattern.n_unknowns();
         let matrix =
             SymbolicSparseColMatRef::new_checked(n, n, &pattern.starts, None, &pattern.rows);
+        let supernodal_flop_ratio_threshold = if pattern.is_mixed() {
+            SupernodalThreshold::AUTO
+        } else {
+            SupernodalThreshold::FORCE_SUPERNODAL
+        };
         let symbolic = factorize_symbolic_cholesky(
             matrix,
             Side::Lower,
             SymmetricOrdering::Amd,
-            CholeskySymbolicParams::default(),
+            CholeskySymbolicParams { supernodal_flop_ratio_threshold, ..Default::default() },
         );
         Ok(Self { symbolic: symbolic.map_err(|_| SolidError::Singular)? })
     }

@@ -1,10 +1,13 @@
 //! `CellPoints`: weights and gradients at the quadrature points of all cells of a solid at rest.
 
 mod quadrature;
+mod stiffness;
 
 use alewife_mesh::Point;
 
 use self::quadrature::{gradients, rule, shapes};
+pub(super) use self::stiffness::CellMatrix;
+
 use super::SolidError;
 use super::mesh::{Frame, Order, SolidMesh};
 use crate::material::Tensor;
