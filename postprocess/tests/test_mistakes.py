@@ -278,5 +278,6 @@ def test_a_soft_run_has_no_flow(tmp_path: Path, capsys: pytest.CaptureFixture[st
     )
     (tmp_path / "run/status.json").write_text("{}")
     run = str(tmp_path / "run")
-    assert cli.main(["report", run, "--out", str(tmp_path / "a.html")]) == 2
+    line = ["line", run, "--from", "0", "0", "--to", "1", "0", "--out", str(tmp_path / "a.csv")]
+    assert cli.main(line) == 2
     assert "alewife-post picture, film and gallery draw its body" in capsys.readouterr().err

@@ -76,7 +76,7 @@ def test_values_at_nodes_are_means_of_the_cells_around() -> None:
 
 
 def test_the_skin_of_a_cell_in_space_is_closed_and_has_its_area() -> None:
-    skin = soft._skin(np.arange(10)[None])
+    skin = soft.skin(np.arange(10)[None])
     corners = TETRAHEDRON[skin]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = 0.5 * np.linalg.norm(normals, axis=1).sum()

@@ -26,20 +26,19 @@ DRAWN = (".png", ".pdf", ".svg")
 
 def add_report(parser: argparse.ArgumentParser) -> None:
     """Options of `report`."""
-    parser.add_argument("run", type=Path, help="run directory, of a finished run or one under way")
+    parser.add_argument("run", type=Path, help="directory of a run, or of a finished search")
     parser.add_argument("--out", type=Path, help="file; NAME.html if absent")
     parser.add_argument("--time", type=float, help="time of the scene; the last one if absent")
 
 
 def write_report(options: argparse.Namespace) -> None:
-    """One HTML file of a run, without a network: a scene to turn, series, verdicts."""
+    """One HTML file of a run or a search, without a network: a scene to turn, series, verdicts."""
     from alewife_post import report
 
-    run = open_run(options.run)
-    out = options.out or Path(f"{run.path.resolve().name}.html")
+    out = options.out or Path(f"{options.run.resolve().name}.html")
     if out.suffix.lower() not in (".html", ".htm"):
         raise ValueError(f"{out} is no page by its name: a report is .html")
-    write_text(out, report.report(run, options.time))
+    write_text(out, report.report_of(options.run, options.time))
 
 
 # ---- Numbers of a flow ---------------------------------------------------------------------------

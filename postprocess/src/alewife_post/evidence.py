@@ -99,10 +99,10 @@ def comparisons(run: Run) -> list[dict[str, Any]]:
         return []
     found = json.loads(path.read_text())
     # Of a soft case a list, of values at the end
-    return [_of_soft(one) for one in found] if isinstance(found, list) else found["comparisons"]
+    return [of_soft(one) for one in found] if isinstance(found, list) else found["comparisons"]
 
 
-def _of_soft(one: dict[str, Any]) -> dict[str, Any]:
+def of_soft(one: dict[str, Any]) -> dict[str, Any]:
     """A comparison of a soft case as those of flows are."""
     computed = one["computed"]
     return one | {

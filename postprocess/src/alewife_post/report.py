@@ -1,4 +1,4 @@
-"""A report of a run: one HTML file with a scene to turn, series, verdicts and how it was made."""
+"""Reports of runs and searches: one HTML file with a scene, series, verdicts, how it was made."""
 
 from __future__ import annotations
 
@@ -14,10 +14,27 @@ from typing import TYPE_CHECKING, Any
 import matplotlib
 import numpy as np
 
-from alewife_post import figure, gallery, scene, scenery, series, stills, style, summary
-from alewife_post.read import Run, check_run
+from alewife_post import (
+    calibration,
+    evidence,
+    figure,
+    gallery,
+    records,
+    scene,
+    scenery,
+    searches,
+    series,
+    soft,
+    soft_scene,
+    stills,
+    style,
+    summary,
+)
+from alewife_post.read import Run, check_run, open_run
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from matplotlib.figure import Figure
 
 Array = np.ndarray
@@ -25,6 +42,12 @@ Array = np.ndarray
 STEPS = 65535
 """Places are written in so many steps over the extent of a part: thinner than any line."""
 COLOURS = 256
+CHOSEN = {
+    scenery.FLUID: "speed",
+    scenery.BODIES: "pressure",
+    soft_scene.BODY: soft_scene.QUANTITIES[0],
+}
+"""What parts are coloured by at first."""
 
 
 def report(run: Run, time: float | None = None) -> str:
@@ -33,15 +56,90 @@ def report(run: Run, time: float | None = None) -> str:
     `time` is that of the scene, the last frame if absent.
     """
     check_run(run)
-    run.check_flow()
     found = summary.summary(run)
-    body = [f"<h1>{_text(run.title)}</h1>", _at_a_glance(found)]
+    body = [_at_a_glance(found)]
     body += _scene(run, time)
     body += _series(run)
+    body += _tracks(run)
     body += _values(found)
     body += _references(found)
-    body += _made(run)
-    title = _text(run.title)
+    body += _made(run.path)
+    return _page(run.title, body)
+
+
+def search_report(path: Path) -> str:
+    """The page of a finished search: its numbers, how they were found, what they are worth."""
+    search = searches.open_search(path)
+    found = search.report
+    word = "objective" if search.is_large else "loss"
+    rows = [
+        ("search", search.kind), ("evaluations", found["evaluations"]), ("ended", found["ended"]),
+        (f"{word} at the start", found["start"]), (word, found["objective"]),
+    ]  # fmt: skip
+    body = [_table((), rows), *_warnings(searches.warnings(search))]
+    names = ("number", "start", "found", "at least", "at most", "reach", "slope", "determined")
+    numbers = [
+        (one["name"], one["start"], one["value"], *one["bounds"], one.get("reach"),
+         one.get("slope"), "yes" if one["determined"] else "no")
+        for one in search.parameters
+    ]  # fmt: skip
+    said = (
+        f"Reach: how far a number, by its scale or as a logarithm, may go before the {word} is "
+        "worse by 5 % of that at the start, the others following."
+    )
+    body += ["<h2>Numbers</h2>", _table(names, numbers), f"<p>{_text(said)}</p>"]
+    if len(search.objectives):
+        body += ["<h2>Evaluations</h2>", _svg(searches.search_figure(search))]
+    body += _references({"references": [evidence.of_soft(one) for one in found["comparison"]]})
+    return _page(search.title, body + _made(path))
+
+
+def calibration_report(path: Path) -> str:
+    """The page of a calibrated reduced model: its coefficients, its tracks, its errors."""
+    found = calibration.open_calibration(path)
+    facts = found.facts
+    plain = [(name, value) for name, value in facts.items() if not _is_table(value)]
+    coefficients = facts.get("coefficient", [])
+    doubts = [f"{one['name']}: {one['doubt']}" for one in coefficients if one.get("doubt")]
+    body = [_table((), [(name, _listed(value)) for name, value in plain]), *_warnings(doubts)]
+    names = ("coefficient", "found", "uncertainty", "at least", "at most")
+    rows = [
+        (one["name"], one["value"], one.get("uncertainty"), *one.get("bounds", (None, None)))
+        for one in coefficients
+    ]
+    body += ["<h2>Coefficients</h2>", _table(names, rows)]
+    body += ["<h2>Tracks and errors</h2>", _svg(calibration.calibration_figure(found))]
+    names = ("from", "held out", "quantity", "model", "recorded", "relative")
+    rows = [
+        (one["from"], "yes" if one["holdout"] else "no", one["quantity"], one["model"],
+         one["recorded"], one["relative"])
+        for one in facts.get("error", [])
+    ]  # fmt: skip
+    body += [_table(names, rows), *_made(path)]
+    return _page(f"Calibration of {facts.get('case', path.resolve().name)}", body)
+
+
+def report_of(path: Path, time: float | None = None) -> str:
+    """The page of a directory of a run, a search or a calibration."""
+    if searches.is_search(path) or (path / "calibrated.toml").is_file():
+        if time is not None:
+            raise ValueError(f"{path} is a search, which has no scene: leave --time out")
+        is_one = searches.is_search(path)
+        return search_report(path) if is_one else calibration_report(path)
+    return report(open_run(path), time)
+
+
+def _is_table(value: object) -> bool:
+    return isinstance(value, list) and bool(value) and isinstance(value[0], dict)
+
+
+def _listed(value: object) -> object:
+    return ", ".join(map(str, value)) if isinstance(value, list) else value
+
+
+def _page(title: str, body: list[str]) -> str:
+    title = _text(title)
+    body = [f"<h1>{title}</h1>", *body]
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -70,9 +168,11 @@ def _at_a_glance(found: dict[str, Any]) -> str:
     rows = [line.partition(" ") for line in lines[3:end]]
     plain = [(name, rest.strip()) for name, _, rest in rows if name != "warning"]
     warnings = [rest.strip() for name, _, rest in rows if name == "warning"]
-    parts = [_table((), plain)]
-    parts += [f'<p class="warning">{_text(one)}</p>' for one in warnings]
-    return "\n".join(parts)
+    return "\n".join([_table((), plain), *_warnings(warnings)])
+
+
+def _warnings(texts: Iterable[str]) -> list[str]:
+    return [f'<p class="warning">{_text(one)}</p>' for one in texts]
 
 
 def _table(names: Iterable[str], rows: Iterable[Iterable[object]]) -> str:
@@ -98,25 +198,31 @@ def _cell(value: object) -> str:
 
 
 def _scene(run: Run, time: float | None) -> list[str]:
-    if not run.fields:
+    head = "Body" if soft.is_soft(run) else "Flow"
+    if not run.frames:
+        if _is_reduced(run):
+            return []
         said = "The run has no field files: output.fields of its case asks for them."
-        return [f"<h2>Flow</h2><p>{_text(said)}</p>"]
+        return [f"<h2>{head}</h2><p>{_text(said)}</p>"]
     if time is not None:
         run.check_time(time)
-    shown = scenery.scenery(run, time)
+    made = soft_scene.soft_scenery if soft.is_soft(run) else scenery.scenery
+    shown = made(run, time)
     at = f", {style.time_text(shown.time, run.units)}" if run.is_unsteady else ""
     on = f"Fluid on {shown.text}. " if shown.text else ""
     given = json.dumps(_given(run, shown), separators=(",", ":")).replace("<", "\\u003c")
     still = ""
     if scene.can_render():
-        if run.is_spatial:
+        if soft.is_soft(run):
+            drawn = soft.picture(run, time=shown.time)
+        elif run.is_spatial:
             drawn = stills.figure_of(run, shown)
         else:
             drawn = figure.picture(run, "speed", time=shown.time)
         png = base64.b64encode(gallery.small_png(drawn)).decode()
-        still = f'<img alt="the flow" src="data:image/png;base64,{png}">'
+        still = f'<img alt="{head.lower()}" src="data:image/png;base64,{png}">'
     return [
-        f"<h2>Flow{_text(at)}</h2>",
+        f"<h2>{head}{_text(at)}</h2>",
         '<div id="tools"></div>',
         '<div id="scene"><canvas></canvas><svg></svg></div>',
         f'<div id="still" hidden>{still}</div>',
@@ -126,6 +232,11 @@ def _scene(run: Run, time: float | None) -> list[str]:
         f"<script>\n{_script('three.min.js')}</script>",
         f"<script>\n{_script('viewer.js')}</script>",
     ]
+
+
+def _is_reduced(run: Run) -> bool:
+    """Whether a run is one of a reduced model, which has no fields."""
+    return (run.path / "status.json").is_file() and run.status.get("fidelity") == "reduced"
 
 
 def _script(name: str) -> str:
@@ -164,7 +275,7 @@ def _part(run: Run, shown: scenery.Scenery, part: scenery.Part) -> dict[str, Any
         name: _quantity(run, values, shown.scales[part.name, name], name)
         for name, values in part.values.items()
     }
-    chosen = {scenery.FLUID: "speed", scenery.BODIES: "pressure"}.get(part.name, "")
+    chosen = CHOSEN.get(part.name, "")
     return {
         "name": part.name,
         "is_lines": part.cells.shape[1] == 2,
@@ -210,6 +321,22 @@ def _series(run: Run) -> list[str]:
     return ["<h2>Series</h2>", _svg(drawn)]
 
 
+def _tracks(run: Run) -> list[str]:
+    """Recorded places of markers beside those of the run."""
+    recorded = records.records(run)
+    if not recorded:
+        return []
+    drawn, rows = series.stacked(len(recorded), "")
+    for axes, one in zip(rows, recorded, strict=True):
+        records.draw_record(axes, one)
+        curve = (run.series["time"], run.series[one.name])
+        series.draw(axes, curve, colour=style.SERIES[0], label="run")
+        axes.set_ylabel(style.length_label(one.name, run.units))
+        axes.legend(loc="best", fontsize="small")
+    rows[-1].set_xlabel("time (s)")
+    return ["<h2>Markers and their record</h2>", _svg(drawn)]
+
+
 def _svg(drawn: Figure) -> str:
     """A figure as an image: within the page, names of its parts would be those of others."""
     with matplotlib.rc_context({"svg.hashsalt": "alewife"}):
@@ -244,18 +371,21 @@ def _references(found: dict[str, Any]) -> list[str]:
     return ["<h2>References</h2>", _table(names, rows)]
 
 
-def _made(run: Run) -> list[str]:
+def _made(path: Path) -> list[str]:
     rows = []
-    if (run.path / "provenance.json").is_file():
+    if (path / "provenance.json").is_file():
+        made = json.loads((path / "provenance.json").read_text(encoding="utf-8"))
         rows = [
             (name, " ".join(map(str, value)) if isinstance(value, list) else value)
-            for name, value in run.provenance.items()
+            for name, value in made.items()
             if not isinstance(value, dict) and name not in ("legs",)
         ]
-    case = (run.path / "case.toml").read_text(encoding="utf-8")
-    return [
-        "<h2>How it was made</h2>",
-        _table((), rows),
-        f"<details><summary>case.toml, all defaults filled in</summary><pre>{_text(case)}</pre>"
-        "</details>",
-    ]
+    elif (path / searches.JOURNAL).is_file():
+        with (path / searches.JOURNAL).open(encoding="utf-8") as journal:
+            rows = [("search", journal.readline().strip())]
+    body = ["<h2>How it was made</h2>", _table((), rows)]
+    for name, what in (("case.toml", ", all defaults filled in"), ("calibrated.toml", "")):
+        if (path / name).is_file():
+            text = _text((path / name).read_text(encoding="utf-8"))
+            body.append(f"<details><summary>{name}{what}</summary><pre>{text}</pre></details>")
+    return body

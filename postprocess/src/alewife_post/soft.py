@@ -263,7 +263,7 @@ def _in_the_plane(axes: Axes, run: Run, shown: Body, look: _Look) -> None:
         axis.set_major_locator(MaxNLocator(marks, steps=[1, 2, 2.5, 5, 10]))
 
 
-def _skin(cells: Array) -> Array:
+def skin(cells: Array) -> Array:
     """Flat triangles `(n, 3)` of the surface of cells in space, four of each face of one cell."""
     faces = cells[:, FACES].reshape(-1, 6)
     _, first, counts = np.unique(
@@ -277,8 +277,8 @@ def _rendered(shown: Body, look: _Look, size: tuple[int, int]) -> Array:
     """The surface of a body in space as an image."""
     import pyvista
 
-    skin = _skin(shown.cells)
-    surface = pyvista.PolyData.from_regular_faces(shown.nodes, skin)
+    triangles = skin(shown.cells)
+    surface = pyvista.PolyData.from_regular_faces(shown.nodes, triangles)
     plotter = pyvista.Plotter(off_screen=True, window_size=size)
     plotter.set_background("white")
     how: dict[str, object] = {"color": style.FLUID, "show_edges": True}
@@ -287,7 +287,7 @@ def _rendered(shown: Body, look: _Look, size: tuple[int, int]) -> Array:
         how = {"scalars": "values", "cmap": look.colour_map, "clim": look.limits}
     surface = surface.compute_normals(feature_angle=40.0, split_vertices=True)
     plotter.add_mesh(surface, show_scalar_bar=False, smooth_shading=True, **how, **style.SOLID)
-    rest = pyvista.PolyData.from_regular_faces(shown.rest, skin)
+    rest = pyvista.PolyData.from_regular_faces(shown.rest, triangles)
     lines = rest.extract_feature_edges(feature_angle=40.0, boundary_edges=False)
     if lines.n_points:
         plotter.add_mesh(lines, color=style.ROD, line_width=2.0, lighting=False)
