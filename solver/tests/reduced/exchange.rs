@@ -224,6 +224,7 @@ fn what_no_case_has_is_refused_by_its_line() {
         ),
         ("axis=\"0 0 2\"", "axis=\"0 0\"", "15: <joint name=\"bend\">: `axis` has 2 numbers"),
         ("kp=\"2\"", "kp=\"two\"", "25: <position name=\"servo\">: `kp` has \"two\""),
+        ("kp=\"2\"", "kp=\"-3\"", "25: <position name=\"servo\">: `kp` is -3"),
         (
             "joint=\"flap\" gear",
             "joint=\"flip\" gear",

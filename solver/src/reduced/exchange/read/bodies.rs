@@ -191,10 +191,10 @@ impl<'a, 'i> Bodies<'_, 'a, 'i> {
             kind,
             axis: unit(node, "axis", axis)?,
             position: element.vector("pos")?,
-            stiffness: element.number("stiffness", 0.0)?,
+            stiffness: element.not_negative("stiffness", 0.0)?,
             rest: element.number("springref", 0.0)? * angle - from,
-            damping: element.number("damping", 0.0)?,
-            armature: armature(element)?,
+            damping: element.not_negative("damping", 0.0)?,
+            armature: element.not_negative("armature", 0.0)?,
             start: [0.0; 2],
             from,
         });
@@ -224,15 +224,6 @@ impl<'a, 'i> Bodies<'_, 'a, 'i> {
         }
         Ok(())
     }
-}
-
-/// Inertia of what turns with a joint alone.
-fn armature(element: &Element<'_, '_, '_>) -> Read<f64> {
-    let found = element.number("armature", 0.0)?;
-    if found < 0.0 {
-        return refuse(element.node, format!("`armature` is {found}"), "a number of 0 or more");
-    }
-    Ok(found)
 }
 
 /// Mass, centre and moments as they are written.

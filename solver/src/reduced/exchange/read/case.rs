@@ -124,11 +124,7 @@ impl Text<'_> {
     /// Title, fluid and time, with what was left out.
     fn head(&mut self, file: &str, notes: &[Remark]) {
         let robot = self.robot;
-        self.line(&format!(
-            "# The model {} of {}, by alewife import",
-            plain(&robot.name),
-            plain(file)
-        ));
+        self.line(&format!("# {}, of {}, by alewife import", plain(&robot.name), plain(file)));
         for note in notes {
             let text = plain(&Remark { help: None, ..note.clone() }.to_string());
             self.line(&format!("# line {text}"));

@@ -123,6 +123,19 @@ impl<'a> Element<'_, 'a, '_> {
         }
     }
 
+    /// A number of 0 or more, or what stands for one that is absent.
+    ///
+    /// # Errors
+    /// When it is none, or below 0.
+    pub fn not_negative(&self, name: &str, absent: f64) -> Read<f64> {
+        match self.number(name, absent)? {
+            value if value < 0.0 => {
+                refuse(self.node, format!("`{name}` is {value}"), "a number of 0 or more")
+            }
+            value => Ok(value),
+        }
+    }
+
     /// Numbers, as many as there are.
     ///
     /// # Errors

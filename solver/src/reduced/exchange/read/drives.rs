@@ -129,15 +129,15 @@ fn motor<'a, 'i>(
                 }
                 other => other.map(|[_, most]| most),
             };
-            MotorLaw::Rate { gain: element.number("kv", 1.0)? * square, limit }
+            MotorLaw::Rate { gain: element.not_negative("kv", 1.0)? * square, limit }
         }
         "position" => {
             if force.is_some() {
                 bodies.notes.push(remark(node, "its `forcerange` is left out"));
             }
             let own = &mut bodies.raws[joint.body].joints[joint.nth];
-            own.damping += element.number("kv", 0.0)? * square;
-            MotorLaw::Place { gain: element.number("kp", 1.0)? * square }
+            own.damping += element.not_negative("kv", 0.0)? * square;
+            MotorLaw::Place { gain: element.not_negative("kp", 1.0)? * square }
         }
         _ => {
             let efforts = told.map(|range| scaled(range, gear));
@@ -180,7 +180,7 @@ fn tendon<'a, 'i>(
             }
         }
     }
-    let stiffness = element.number("stiffness", 0.0)?;
+    let stiffness = element.not_negative("stiffness", 0.0)?;
     if stiffness <= 0.0 {
         bodies.notes.push(remark(node, "it is left out: it has no stiffness"));
         return Ok(None);
@@ -205,7 +205,7 @@ fn tendon<'a, 'i>(
             return refuse(node, "a tendon is not slack between two lengths above 0", help);
         }
     };
-    let damping = element.number("damping", 0.0)?;
+    let damping = element.not_negative("damping", 0.0)?;
     let name = node.attribute("name").map_or_else(|| format!("tendon-{number}"), str::to_owned);
     let tendon = RobotTendon { name, sites, stiffness, damping, rest, pushes };
     Ok(Some(TendonOfFile { tendon, is_at_rest }))

@@ -70,8 +70,8 @@ pub(super) fn geom(element: &Element<'_, '_, '_>, angles: &Angles) -> Read<Geom>
         );
     }
     let mass = match element.text("mass") {
-        Some(_) => element.number("mass", 0.0)?,
-        None => element.number("density", DENSITY)? * solid.volume(),
+        Some(_) => element.not_negative("mass", 0.0)?,
+        None => element.not_negative("density", DENSITY)? * solid.volume(),
     };
     let ellipsoid = match in_fluid {
         true => Some(RobotEllipsoid {

@@ -108,7 +108,13 @@ fn settings(root: Node<'_, '_>) -> Read<Settings> {
     for node in children(root).filter(|node| node.has_tag_name("option")) {
         let one = |name: &str, absent: f64| -> Read<f64> {
             let text = node.attribute(name);
-            text.map_or(Ok(absent), |text| exactly::<1>(node, name, text).map(|[value]| value))
+            let value = text.map_or(Ok([absent]), |text| exactly::<1>(node, name, text));
+            match value? {
+                [value] if value < 0.0 => {
+                    refuse(node, format!("`{name}` is {value}"), "a number of 0 or more")
+                }
+                [value] => Ok(value),
+            }
         };
         settings.step = one("timestep", settings.step)?;
         (density, viscosity) = (one("density", density)?, one("viscosity", viscosity)?);

@@ -200,7 +200,12 @@ impl<'a, 'i> File<'a, 'i> {
         let dynamics = find("dynamics");
         let of_dynamics = |name: &str| -> Read<f64> {
             match dynamics.filter(|node| node.attribute(name).is_some()) {
-                Some(node) => number(node, name),
+                Some(node) => match number(node, name)? {
+                    value if value < 0.0 => {
+                        refuse(node, format!("`{name}` is {value}"), "a number of 0 or more")
+                    }
+                    value => Ok(value),
+                },
                 None => Ok(0.0),
             }
         };
