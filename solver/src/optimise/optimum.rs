@@ -7,6 +7,7 @@ use std::path::Path;
 use alewife_reduced::search::{
     Bounded, Certainties, Found, Slope, number_lines, numbers_to_json, write_whole,
 };
+use alewife_reduced::tier::checksum_of_case;
 use serde_json::{Value, json};
 
 use super::constraints::Held;
@@ -172,7 +173,9 @@ impl Optimum {
         let text = case.to_toml().map_err(io::Error::other)?;
         write_whole(&directory.join("evaluations.csv"), self.table())?;
         write_whole(&directory.join("case.toml"), text)?;
-        write_whole(&directory.join("report.json"), format!("{:#}\n", self.to_json()))
+        let mut report = self.to_json();
+        report["case"] = json!(checksum_of_case(directory)?);
+        write_whole(&directory.join("report.json"), format!("{report:#}\n"))
     }
 }
 

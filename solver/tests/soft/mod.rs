@@ -135,9 +135,14 @@ fn an_optimum_is_found_and_runs_and_a_search_called_again_is_the_same() {
         .lines()
         .map(|line| if line.starts_with("amplitude = ") { "amplitude = 0.03" } else { line });
     fs::write(at.join("p/case.toml"), other.collect::<Vec<_>>().join("\n")).unwrap();
-    let output = alewife(at, &["verify", "p"]);
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let verified = || String::from_utf8(alewife(at, &["verify", "p"]).stdout).unwrap();
+    let said = verified();
     assert!(said.contains("case.toml: `amplitude` is 0.03, and that of the best"), "{said}");
+    // And one that was not sought
+    let frames = case.lines().find(|line| line.starts_with("frames = ")).unwrap();
+    fs::write(at.join("p/case.toml"), case.replace(frames, "frames = 9")).unwrap();
+    let said = verified();
+    assert!(said.contains("case.toml: it is not as the search has written it"), "{said}");
     fs::write(at.join("p/case.toml"), case).unwrap();
     // A journal whose best evaluation went is not that of the report
     let end = journal.lines().min_by(|a, b| objective(a).total_cmp(&objective(b))).unwrap();

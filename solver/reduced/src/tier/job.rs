@@ -13,7 +13,7 @@ use super::compare::{Compared, compare};
 use super::evaluate::{Kind, Seeker, WayAndWork};
 use super::mesh::{Bodies, SolidOf};
 use super::model::{Model, TierError};
-use super::output::{fingerprint, write_case};
+use super::output::{checksum_of_case, fingerprint, write_case};
 use super::parameters::Sought;
 use super::rounds::settings;
 use crate::search::{
@@ -232,7 +232,9 @@ impl JobResult {
     /// What the file system reports.
     pub fn write(&self, directory: &Path, file: &SoftFile, which: Which) -> std::io::Result<()> {
         write_case(directory, file, &self.case)?;
-        let report = format!("{:#}\n", self.to_json(which));
+        let mut report = self.to_json(which);
+        report["case"] = json!(checksum_of_case(directory)?);
+        let report = format!("{report:#}\n");
         write_whole(&directory.join("report.json"), report)
     }
 }

@@ -22,7 +22,7 @@ pub use fields::{rest_mesh, write_fields};
 pub use job::{Job, JobResult, Which};
 pub use mesh::{Bodies, SolidOf};
 pub use model::{Model, TierError};
-pub use output::{fingerprint, write_case};
+pub use output::{checksum_of_case, fingerprint, write_case};
 pub use parameters::Sought;
 pub use rounds::{Perturbed, Robot, Round, Rounds, Seen, settings};
 pub use series::{Series, series};

@@ -1,7 +1,7 @@
 //! What commands write of a soft case: a case that runs, with the files it names.
 
-use std::io;
 use std::path::Path;
+use std::{fs, io};
 
 use alewife_case::soft::SoftFile;
 use alewife_case::soft::spec::SoftCase;
@@ -31,6 +31,18 @@ pub fn write_case(directory: &Path, file: &SoftFile, case: &SoftCase) -> io::Res
     write_whole(&directory.join("case.toml"), text)
 }
 
+/// A number that tells the `case.toml` of a search from any other, for its report.
+///
+/// # Errors
+/// What the file system reports.
+pub fn checksum_of_case(directory: &Path) -> io::Result<String> {
+    fs::read(directory.join("case.toml")).map(|bytes| checksum(&bytes))
+}
+
+fn checksum(bytes: &[u8]) -> String {
+    format!("crc32:{:08x}-{}", crc32fast::hash(bytes), bytes.len())
+}
+
 /// A number that tells a case with its files from others.
 #[must_use]
 pub fn fingerprint(file: &SoftFile) -> String {
@@ -38,5 +50,5 @@ pub fn fingerprint(file: &SoftFile) -> String {
     for beside in [&file.record, &file.mesh].into_iter().flatten() {
         bytes.extend_from_slice(&beside.bytes);
     }
-    format!("crc32:{:08x}-{}", crc32fast::hash(&bytes), bytes.len())
+    checksum(&bytes)
 }

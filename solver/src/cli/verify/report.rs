@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use alewife_reduced::tier::checksum_of_case;
 use serde_json::Value;
 
 use super::found::Found;
@@ -35,6 +36,10 @@ pub fn check(search: &SearchDirectory, found: &mut Found) {
             check_quantities(case, &report, found);
         }
         check_compared(&report, found);
+        let told = report["case"].as_str();
+        if told.is_some_and(|told| checksum_of_case(&search.path).is_ok_and(|own| own != told)) {
+            found.wrong("case.toml", "it is not as the search has written it");
+        }
     }
     check_table(search, found);
 }
