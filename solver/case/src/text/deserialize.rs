@@ -28,10 +28,14 @@ impl<'de> de::Deserializer<'de> for &TomlNode {
             TomlValue::Array(items) => {
                 let mut access = ItemAccess { items: items.iter(), index: 0 };
                 let value = visitor.visit_seq(&mut access);
-                match (value, access.index) {
+                let value = match (value, access.index) {
                     (Ok(_), seen) if seen < items.len() => Err(too_long(items.len(), seen)),
                     (value, _) => value,
-                }
+                };
+                // Texts that are there were taken: only their number is wrong
+                let is_text = |item: &TomlNode| matches!(item.value, TomlValue::String(_));
+                let has_texts = !items.is_empty() && items.iter().all(is_text);
+                value.map_err(|error| if has_texts { error.of_texts() } else { error })
             }
             TomlValue::Table(entries) => {
                 visitor.visit_map(EntryAccess { entries: entries.iter(), value: None })

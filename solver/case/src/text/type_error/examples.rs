@@ -48,6 +48,11 @@ pub(super) fn array_example(found: &str, wanted: &str) -> String {
     if let Some(text) = found.strip_prefix("the string ") {
         return format!("write it in brackets: [{text}]");
     }
+    if let Some(n) =
+        wanted.strip_prefix("an array of ").and_then(|rest| rest.strip_suffix(" texts"))
+    {
+        return format!("write {n} texts in brackets, with commas between them");
+    }
     let number = found.trim_matches('`');
     match number.parse::<f64>() {
         Ok(_) if wanted == "an array of 3 numbers" => {

@@ -80,6 +80,16 @@ impl TypeError {
         self
     }
 
+    /// Says that an array of another length is one of texts.
+    pub fn of_texts(mut self) -> Self {
+        if self.0.path.is_empty()
+            && let Mismatch::WrongType { wanted, .. } = &mut self.0.mismatch
+        {
+            *wanted = wanted.replace(" numbers", " texts");
+        }
+        self
+    }
+
     /// Says by which step the value is reached from the table or array around it.
     pub fn below(mut self, step: impl Into<String>) -> Self {
         self.0.path.push(step.into());
@@ -339,6 +349,21 @@ mod tests {
         assert_eq!(help("`3.0`", "an array"), of_number);
         assert_eq!(help("the string \"x\"", "an array"), "write it in brackets: [\"x\"]");
         assert_eq!(help("`3.0`", "a table"), "");
+    }
+
+    #[test]
+    fn an_array_of_another_length_is_one_of_what_is_in_it() {
+        let error = <TypeError as de::Error>::invalid_length(2, &"an array of length 3");
+        let error = error.of_texts().below("markers");
+        assert_eq!(
+            error.message(),
+            "`markers` is an array of 2 where an array of 3 texts is wanted"
+        );
+        assert_eq!(error.help(), "write 3 texts in brackets, with commas between them");
+        // That of an entry stays
+        let error = <TypeError as de::Error>::invalid_length(2, &"an array of length 3");
+        let error = error.below("0").of_texts();
+        assert_eq!(error.message(), "`0` is an array of 2 where an array of 3 numbers is wanted");
     }
 
     #[test]
