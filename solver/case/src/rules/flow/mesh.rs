@@ -29,13 +29,12 @@ pub fn check(findings: &mut Findings<'_>) {
     }
     check_boxes(findings);
     let is_given = mesh.gap_layers > 0.0 && mesh.scale > 0.0;
-    if is_given && mesh.gap_layers / mesh.scale < FEW_LAYERS {
+    let layers = mesh.gap_layers / mesh.scale;
+    if is_given && layers < FEW_LAYERS {
+        let plural = if layers == 1.0 { "" } else { "s" };
         findings.warning(
             "mesh.gap_layers",
-            format!(
-                "gaps get {} layers of cells: too few for the pressure in them",
-                mesh.gap_layers / mesh.scale
-            ),
+            format!("gaps get {layers} layer{plural} of cells: too few for the pressure in them"),
             "4 are usual",
         );
     }
