@@ -60,6 +60,12 @@ impl BodySurface {
         &self.parts
     }
 
+    /// About so many places on each of its parts (m), as seen from far away; of a slender body and of triangles all over it.
+    #[must_use]
+    pub fn places(&self, n: usize) -> Vec<Point<3>> {
+        self.parts.iter().flat_map(|part| part.places(n)).collect()
+    }
+
     /// Whether it is a sphere about the origin of the body.
     #[must_use]
     pub fn is_sphere(&self) -> bool {

@@ -52,6 +52,7 @@ pub use spec::body::rod::{
     Activation, AlongBody, Attached, EndLoadSpec, EndLoads, EndMoment, Hold, LoadedEnd, RestShape,
     RodEnd, RodSpec,
 };
+pub use spec::body::slip::SlipGait;
 pub use spec::body::spring::SpringSpec;
 pub use spec::body::squirmer::SquirmerGait;
 pub use spec::body::stroke::{Cycle, Stroke, smooth_ramp};

@@ -21,12 +21,15 @@ impl Model {
         model
     }
 
-    /// Gives expressions of midlines the numbers of the case.
-    pub(super) fn define_midlines(&mut self) {
+    /// Gives expressions of gaits the numbers of the case.
+    pub(super) fn define_gaits(&mut self) {
         for body in &mut self.bodies {
-            if let Some(GaitSpec::Midline(gait)) = &mut body.gait {
-                gait.definitions.clone_from(&self.case.define);
-            }
+            let definitions = match &mut body.gait {
+                Some(GaitSpec::Midline(gait)) => &mut gait.definitions,
+                Some(GaitSpec::Slip(gait)) => &mut gait.definitions,
+                _ => continue,
+            };
+            definitions.clone_from(&self.case.define);
         }
     }
 

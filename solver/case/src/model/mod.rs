@@ -119,7 +119,7 @@ impl Model {
             }
         }
         model.connect_commands();
-        model.define_midlines();
+        model.define_gaits();
         Ok(model)
     }
 

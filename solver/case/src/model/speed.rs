@@ -2,9 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
+use alewife_mesh::spatial::{Body as SolidBody, BodySurface};
+use alewife_mesh::{Outline, PlacedShape, Point};
+use nalgebra::Isometry3;
+
 use crate::{
     Body, BoundaryCondition, Case, ContactSpec, DrivenLaw, Formula, GaitSpec, Geometry, Joint,
-    JointKind, Lock, MagneticSpec, Model, Motion, ParsedFormula, Stroke,
+    JointKind, Lock, MagneticSpec, Model, Motion, ParsedFormula, SlipGait, Stroke, TimeSettings,
 };
 
 /// Times of a stroke's period at which its rate is looked at.
@@ -219,11 +223,54 @@ fn body_speed(case: &Case, body: &Body) -> f64 {
     };
     let gait = match &body.gait {
         Some(GaitSpec::Squirmer(squirmer)) => squirmer.modes.iter().map(|mode| mode.abs()).sum(),
+        Some(GaitSpec::Slip(slip)) => slip_speed(case, body, slip),
         // Tails and waves move at the order of a length in a period
         Some(gait) => gait.period().map_or(0.0, |period| 2.0 * reach / period),
         None => 0.0,
     };
     imposed.max(gait)
+}
+
+/// The largest slip of a body (m/s); 0 where its expressions have no value.
+fn slip_speed(case: &Case, body: &Body, slip: &SlipGait) -> f64 {
+    let n = case.geometry.dimensions();
+    let parsed = slip.velocity.iter().filter_map(|one| one.parsed(&case.define, n).ok());
+    let parsed: Vec<ParsedFormula> = parsed.collect();
+    let speed = |at: &[f64; 4]| norm(&parsed.iter().map(|one| one.at(at)).collect::<Vec<_>>());
+    let speeds = slip_trials(case, body).into_iter().map(|at| speed(&at));
+    speeds.filter(|speed| speed.is_finite()).fold(0.0, f64::max)
+}
+
+/// Places all over the surface of a body in its own frame (m), each at times (s) all over the run.
+pub(crate) fn slip_trials(case: &Case, body: &Body) -> Vec<[f64; 4]> {
+    let end = match &case.time {
+        TimeSettings::Unsteady(time) => time.end,
+        TimeSettings::Steady(_) => 0.0,
+    };
+    let times = (0..=TIMES).map(|nth| end * f64::from(nth) / f64::from(TIMES));
+    let places = surface_places(case, body);
+    times.flat_map(|time| places.iter().map(move |[x, y, z]| [*x, *y, *z, time])).collect()
+}
+
+/// Places all over the surface of a body, in its own frame (m); none of a shape that is none.
+fn surface_places(case: &Case, body: &Body) -> Vec<[f64; 3]> {
+    const PLACES: u32 = 64;
+    if case.geometry == Geometry::Spatial {
+        let surface = body.solid(1.0).and_then(|solid| {
+            BodySurface::new(&SolidBody { pose: Isometry3::identity(), ..solid }).ok()
+        });
+        let places = surface.map(|surface| surface.places(PLACES as usize)).unwrap_or_default();
+        return places.into_iter().map(Into::into).collect();
+    }
+    let (center, angle) = (Point::<2>::zeros(), 0.0);
+    let Ok(outline) = Outline::new(&PlacedShape { center, angle, ..body.placed(1.0) }) else {
+        return Vec::new();
+    };
+    let parameters = (0..PLACES).map(|nth| outline.period() * f64::from(nth) / f64::from(PLACES));
+    let places = parameters.map(|parameter| outline.at(parameter)[0]);
+    // Of a meridian half of the outline is met
+    let is_met = |place: &Point<2>| case.geometry == Geometry::Planar || place.y >= 0.0;
+    places.filter(is_met).map(|place| [place.x, place.y, 0.0]).collect()
 }
 
 /// Force per velocity of a body in slow flow, by its reach (N s/m; N s/m2 planar).

@@ -14,6 +14,7 @@ mod pulse;
 mod recoil;
 mod sheet;
 mod slender_body;
+mod slip;
 mod squirmer;
 mod surface_motion;
 #[cfg(test)]
@@ -29,5 +30,6 @@ pub use pulse::{Pulse, PulseLaw};
 pub use recoil::RecoilMotion;
 pub use sheet::WavingSheet;
 pub use slender_body::SlenderBody;
+pub use slip::{Slip, SlipSurface};
 pub use squirmer::Squirmer;
 pub use surface_motion::{Gait, GaitAbout, InTime};

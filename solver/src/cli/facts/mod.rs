@@ -210,6 +210,7 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
             // The axis turns with the body, and both may be given
             format!(", squirmer heading {}", angle_in_words(body.angle + gait.heading))
         }
+        Some(GaitSpec::Slip(_)) => ", slips along itself".to_owned(),
         Some(GaitSpec::Carangiform(_)) => ", carangiform".to_owned(),
         Some(GaitSpec::Anguilliform(_)) => ", anguilliform".to_owned(),
         Some(GaitSpec::Flagellum(_)) => ", flagellum".to_owned(),

@@ -136,6 +136,7 @@ fn one_body(body: &Body, geometry: Geometry) -> OneBody<'_> {
 fn kind_of_gait(gait: &GaitSpec) -> &'static str {
     match gait {
         GaitSpec::Squirmer(_) => "squirmer",
+        GaitSpec::Slip(_) => "slip",
         GaitSpec::Carangiform(_) => "carangiform",
         GaitSpec::Anguilliform(_) => "anguilliform",
         GaitSpec::Flagellum(_) => "flagellum",

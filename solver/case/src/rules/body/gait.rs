@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::joints::stroke;
 use super::midline;
 use super::skin::has_rate;
+use super::slip;
 use crate::rules::flow::boundary::check_factor;
 use crate::rules::{Findings, OneOf};
 use crate::{
@@ -77,6 +78,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let key = format!("{key}.gait");
     match gait {
         GaitSpec::Squirmer(gait) => squirmer(findings, &format!("{key}.squirmer"), body, gait),
+        GaitSpec::Slip(gait) => slip::check(findings, &format!("{key}.slip"), body, gait),
         GaitSpec::Carangiform(gait) => carangiform(findings, &format!("{key}.carangiform"), gait),
         GaitSpec::Anguilliform(gait) => {
             anguilliform(findings, &format!("{key}.anguilliform"), gait);

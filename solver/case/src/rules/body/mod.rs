@@ -9,6 +9,7 @@ pub(super) mod motion;
 mod polygon;
 pub(crate) mod rod;
 mod skin;
+mod slip;
 mod solid;
 mod spring;
 pub(super) mod strokes;

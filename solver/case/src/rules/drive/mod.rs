@@ -56,6 +56,8 @@ fn is_driven(model: &Model) -> bool {
             .any(|one| any(&one.drive.range()))
         || case.reduced.iter().flat_map(|reduced| &reduced.servo).any(|one| one.rate != 0.0)
         || may_touch(model)
+        // What diffuses needs no flow
+        || !case.scalar.is_empty()
 }
 
 fn any(vector: &[f64]) -> bool {
@@ -113,6 +115,7 @@ fn gait_drives(body: &Body) -> bool {
                 .zip(&factors)
                 .any(|(mode, factor)| *mode != 0.0 && acts(factor.as_ref()))
         }
+        Some(GaitSpec::Slip(gait)) => gait.velocity.iter().any(|one| one.number() != Some(0.0)),
         Some(GaitSpec::Carangiform(gait)) => {
             let strokes = [&gait.beat, &gait.bend];
             strokes.into_iter().flatten().any(moves)

@@ -87,6 +87,11 @@ fn what_drives_is_known_in_all_geometries() {
             assert!(is_driven(false, &gait("1.0", motion)), "{geometry} {motion}");
             assert!(!is_driven(false, &gait("0.0", motion)), "{geometry} {motion}");
         }
+        let slip = |x: &str| format!("gait.slip.velocity = {}", vector(x));
+        assert!(is_driven(false, &slip("'x'")) && is_driven(false, &slip("1.0")), "{geometry}");
+        assert!(!is_driven(false, &slip("0.0")), "{geometry}");
+        let scalar = "\n[[scalar]]\nname = 'c'\ndiffusivity = 1.0\ninitial = 'x'";
+        assert!(is_driven(false, scalar), "{geometry}: it diffuses");
         let side = |x: &str| {
             let left = format!("{{ velocity = {{ value = {} }} }}", vector(x));
             is_at_rest(geometry, &left, &FLUID.replace('G', &vector("0.0")))

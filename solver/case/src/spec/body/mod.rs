@@ -11,6 +11,7 @@ pub(crate) mod orientation;
 pub(crate) mod rod;
 mod shape_names;
 pub(crate) mod skin;
+pub(crate) mod slip;
 mod solid;
 pub(crate) mod solid_shape;
 pub(crate) mod spring;
@@ -34,6 +35,7 @@ use self::motion::inertia::InertiaSpec;
 use self::motion::{LoadFrame, Lock, Motion};
 use self::orientation::Orientation;
 use self::rod::{Activation, Attached, RodSpec};
+use self::slip::SlipGait;
 use self::spring::SpringSpec;
 use self::squirmer::SquirmerGait;
 use super::time_function::TimeFunction;
@@ -231,6 +233,8 @@ pub struct PartSpec {
 pub enum GaitSpec {
     /// Tangential slip of a spherical or circular squirmer.
     Squirmer(SquirmerGait),
+    /// Slip along the surface of any smooth shape, by expressions.
+    Slip(SlipGait),
     /// A wave of curvature along a fish.
     Carangiform(CarangiformGait),
     /// A wave of displacements along a fish.
@@ -346,7 +350,7 @@ impl GaitSpec {
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         match self {
-            Self::Squirmer(_) => None,
+            Self::Squirmer(_) | Self::Slip(_) => None,
             Self::Carangiform(gait) => Some(gait.period),
             Self::Anguilliform(gait) => Some(gait.period),
             Self::Flagellum(gait) => Some(gait.period),

@@ -36,6 +36,23 @@ impl GaitSpec {
     pub fn shapes(&self) -> &'static [&'static str] {
         match self {
             Self::Squirmer(_) | Self::Pulsating(_) => &["disc", "sphere"],
+            // Smooth ones: at an edge no direction but one is along the surface
+            Self::Slip(_) => &[
+                "disc",
+                "ellipse",
+                "spline",
+                "fish",
+                "flagellate",
+                "sphere",
+                "spheroid",
+                "ellipsoid",
+                "capsule",
+                "cylinder",
+                "helix",
+                "curve",
+                "revolved",
+                "surface",
+            ],
             Self::Carangiform(_) | Self::Anguilliform(_) => &["fish"],
             Self::Flagellum(_) => &["flagellate"],
             Self::Midline(_) => &["fish", "flagellate"],

@@ -1,16 +1,18 @@
 //! Bodies of a case as rigid bodies.
 
-use alewife_mesh::{BoundaryId, Mesh};
-use nalgebra::Vector3;
+use alewife_mesh::spatial::{Body as SolidBody, BodySurface};
+use alewife_mesh::{BoundaryId, Mesh, Outline, PlacedShape, Point};
+use nalgebra::{Isometry3, Vector3};
 
 use super::rod::rod_shape;
-use super::solid::Solid;
+use super::solid::{Solid, no_solid};
 use crate::body::{Inertia, Mode, Orientation, Pose, RigidVector, Twist, Wrench};
 use crate::case::{
-    Body, Case, FlowModel, GaitSpec, Geometry, Lock, Motion, ShapeSpec, SpringSpec, TimeFunction,
+    Body, Case, FlowModel, GaitSpec, Geometry, Lock, Motion, ShapeSpec, SlipGait, SpringSpec,
+    SquirmerGait, TimeFunction,
 };
 use crate::coupling::{Drive, Lever, RigidBody, Spring, TimeValue};
-use crate::gait::{Gait, GaitAbout, InTime, Squirmer};
+use crate::gait::{Gait, GaitAbout, InTime, Slip, SlipSurface, Squirmer};
 use crate::run::RunError;
 use crate::run::shape_motion;
 use crate::space::Metric;
@@ -67,7 +69,7 @@ pub(super) fn rigid_body<const D: usize>(
             .map(|factor| -> TimeValue { Box::new(move |time| factor_at(Some(&factor), time)) }),
         load_in_body: !body.load_frame.is_laboratory(),
         spring: body.spring.as_ref().map(|spring| rigid_spring(spring, &pose)),
-        gait: slip(body, metric, &pose),
+        gait: slip(case, body, metric, &pose)?,
         shape: shape_motion(body, case.geometry)?,
         ..RigidBody::held(body.name.clone(), boundary, pose)
     };
@@ -172,9 +174,26 @@ fn rigid_spring(spring: &SpringSpec, pose: &Pose) -> Spring {
 }
 
 /// Slip of the surface of a body with a pose; gaits that deform the body are in `shape_motion`.
-fn slip(body: &Body, metric: Metric, pose: &Pose) -> Option<Box<dyn Gait>> {
-    let squirmer = match &body.gait {
-        Some(GaitSpec::Squirmer(squirmer)) => squirmer,
+fn slip(
+    case: &Case,
+    body: &Body,
+    metric: Metric,
+    pose: &Pose,
+) -> Result<Option<Box<dyn Gait>>, RunError> {
+    // From the centre of mass to the origin of the shape
+    let center = pose.to_body(&(vector(&body.center) - pose.center));
+    Ok(match &body.gait {
+        Some(GaitSpec::Squirmer(gait)) => {
+            let gait = squirmer(body, gait, metric);
+            if body.center_of_mass.is_empty() {
+                return Ok(Some(Box::new(gait)));
+            }
+            Some(Box::new(GaitAbout { gait, center }))
+        }
+        Some(GaitSpec::Slip(gait)) => {
+            let gait = slip_by_expressions(case, body, gait)?;
+            Some(Box::new(GaitAbout { gait, center }))
+        }
         None
         | Some(
             GaitSpec::Carangiform(_)
@@ -183,22 +202,37 @@ fn slip(body: &Body, metric: Metric, pose: &Pose) -> Option<Box<dyn Gait>> {
             | GaitSpec::Midline(_)
             | GaitSpec::Pulsating(_)
             | GaitSpec::Joints(_),
-        ) => return None,
-    };
+        ) => None,
+    })
+}
+
+fn squirmer(body: &Body, squirmer: &SquirmerGait, metric: Metric) -> Squirmer {
     let axis = squirmer.axis_in_body(metric.is_revolved());
     let in_time =
         |function: TimeFunction| InTime(Box::new(move |time| factor_at(Some(&function), time)));
     let factors = squirmer.factors_of_modes().into_iter();
-    let gait = Squirmer {
+    Squirmer {
         modes: squirmer.modes.clone(),
         factors: factors.map(|factor| factor.map(in_time)).collect(),
         axis,
         turn: squirmer.turn.clone().map(in_time),
         is_sphere: matches!(body.shape, ShapeSpec::Sphere { .. }),
-    };
-    if body.center_of_mass.is_empty() {
-        return Some(Box::new(gait));
     }
-    let center = pose.to_body(&(vector(&body.center) - pose.center));
-    Some(Box::new(GaitAbout { gait, center }))
+}
+
+/// Slip by expressions along the shape of a body, in the frame of the shape.
+fn slip_by_expressions(case: &Case, body: &Body, gait: &SlipGait) -> Result<Slip, RunError> {
+    let refused = |error: String| RunError::Unsupported(format!("body `{}`: {error}", body.name));
+    let velocity =
+        gait.parsed(case.geometry.dimensions()).map_err(|error| refused(error.to_string()))?;
+    let surface = if case.geometry == Geometry::Spatial {
+        let solid = body.solid(1.0).ok_or_else(|| no_solid(body))?;
+        let own = BodySurface::new(&SolidBody { pose: Isometry3::identity(), ..solid });
+        SlipSurface::Surface(own.map_err(|error| refused(error.to_string()))?)
+    } else {
+        let (center, angle) = (Point::<2>::zeros(), 0.0);
+        let own = Outline::new(&PlacedShape { center, angle, ..body.placed(1.0) });
+        SlipSurface::Curve(own.map_err(|error| refused(error.to_string()))?)
+    };
+    Ok(Slip { velocity, surface })
 }

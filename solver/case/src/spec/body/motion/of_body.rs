@@ -53,7 +53,7 @@ impl Body {
             return true;
         }
         match self.gait {
-            None | Some(GaitSpec::Squirmer(_)) => false,
+            None | Some(GaitSpec::Squirmer(_) | GaitSpec::Slip(_)) => false,
             Some(
                 GaitSpec::Carangiform(_)
                 | GaitSpec::Anguilliform(_)
