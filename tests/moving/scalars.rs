@@ -1,6 +1,7 @@
 //! Scalars that the flow carries: exact solutions, orders, constants and amounts on meshes that move and are replaced.
 
 use alewife_core::case::Model;
+use alewife_core::run::simulate;
 use tests::cases::{case, last, run};
 use tests::{resumed, stopped};
 
@@ -83,6 +84,94 @@ fn convection_is_resolved_where_it_is_strong() {
     for diffusivity in [0.1, 0.001] {
         let [coarse, fine] = [error(0.3, diffusivity), error(0.075, diffusivity)];
         assert!(fine < coarse / 64.0, "k = {diffusivity}: {coarse:.2e} {fine:.2e}");
+    }
+}
+
+/// A shell between spheres of radii 1 and 2 that are kept cold, in its slowest mode: sin(pi (r - 1)) / r, which decays as
+/// exp(-k pi^2 t).
+fn shell(geometry: &str, domain: &str, mesh: &str, step: f64) -> Model {
+    let (square, zeros) = match geometry {
+        "axisymmetric" => ("x^2 + y^2", "0.0, 0.0"),
+        _ => ("x^2 + y^2 + z^2", "0.0, 0.0, 0.0"),
+    };
+    let axis = if geometry == "axisymmetric" { "axis = \"axis\"," } else { "" };
+    case(&format!(
+        r#"
+        title = "a shell cools"
+        geometry = "{geometry}"
+        fluid = {{ model = "stokes", viscosity = 1.0 }}
+        domain.{domain}
+        boundary = {{ {axis} wall = "no-slip" }}
+        mesh = {mesh}
+        time.unsteady = {{ step = {step}, end = 0.2 }}
+        body = [{{ name = "b", shape.sphere.radius = 1.0, center = [{zeros}], motion = "held" }}]
+        [[scalar]]
+        name = "c"
+        diffusivity = 0.5
+        initial = "sin(pi*(sqrt({square}) - 1))/sqrt({square})"
+        boundary.wall.value = 0.0
+        body.b.value = 0.0
+        "#
+    ))
+}
+
+/// What comes through the inner sphere, -4 pi k pi, and through the outer one, twice that, at the start.
+#[test]
+fn a_shell_cools_through_both_spheres() {
+    let pi = std::f64::consts::PI;
+    let exact = -2.0 * pi * pi * (-0.1 * pi * pi).exp();
+    let off = |outcome: &alewife_core::run::RunSummary| {
+        let defect = last(outcome, "scalar.c.defect");
+        assert!(defect.abs() < 1e-11, "{defect:.1e}");
+        ["b", "wall"].map(|name| last(outcome, &format!("scalar.c.{name}.flux")))
+    };
+    let around = |step: f64| {
+        let mesh = "{ size = 0.2, surface = 0.1 }";
+        let outcome = run(&shell("axisymmetric", "half-disc.radius = 2.0", mesh, step));
+        let [inner, outer] = off(&outcome);
+        [inner / exact - 1.0, outer / (2.0 * exact) - 1.0].map(f64::abs)
+    };
+    let [coarse, fine] = [around(0.04), around(0.02)];
+    for (coarse, fine) in coarse.iter().zip(fine) {
+        assert!(fine < coarse / 3.2 && fine < 4e-3, "{coarse:.2e} {fine:.2e}");
+    }
+    let ball = "sphere = { center = [0.0, 0.0, 0.0], radius = 2.0 }";
+    let model = shell("spatial", ball, "{ size = 1.0, surface = 0.5, gap_layers = 2 }", 0.04);
+    let outcome = simulate::<3>(&model, &mut []).expect("it runs");
+    let [inner, outer] = off(&outcome);
+    assert!((inner / exact - 1.0).abs() < 0.02, "{inner} {exact}");
+    assert!((outer / (2.0 * exact) - 1.0).abs() < 0.02, "{outer} {exact}");
+}
+
+/// A wave that a stream carries through a periodic channel and that decays: cos(pi (x - t)) exp(-k pi^2 t).
+#[test]
+fn a_wave_is_carried_through_periodic_sides_to_second_order_by_both_schemes() {
+    let exact = (0.3 * std::f64::consts::PI).cos() * (-0.02 * std::f64::consts::PI.powi(2)).exp();
+    for scheme in ["bdf2", "rk3"] {
+        let error = |step: f64| {
+            let model = case(&format!(
+                r#"
+                title = "a wave"
+                geometry = "planar"
+                fluid = {{ model = "stokes", viscosity = 1.0 }}
+                domain.box = {{ min = [0.0, 0.0], max = [2.0, 1.0] }}
+                mesh.size = 0.15
+                time.unsteady = {{ step = {step}, end = 0.4, scheme = "{scheme}" }}
+                probe = [{{ name = "p", point = [0.7, 0.5] }}]
+                scalar = [{{ name = "c", diffusivity = 0.05, initial = "cos(pi*x)" }}]
+                [boundary]
+                left.periodic = "right"
+                right.periodic = "left"
+                bottom.velocity.value = [1.0, 0.0]
+                top.velocity.value = [1.0, 0.0]
+                "#
+            ));
+            let outcome = run(&model);
+            assert!(last(&outcome, "scalar.c.defect").abs() < 1e-12);
+            (last(&outcome, "scalar.c.p.value") - exact).abs()
+        };
+        let [coarse, fine] = [error(0.08), error(0.04)];
+        assert!(fine < coarse / 3.2, "{scheme}: {coarse:.2e} {fine:.2e}");
     }
 }
 
