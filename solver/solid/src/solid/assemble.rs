@@ -136,7 +136,7 @@ impl<'a, const D: usize> Response<'a, D> {
 
     /// Derivatives of the stress by the deformation gradient (Pa).
     pub(super) fn tangent(&self, curvature: Curvature) -> Tangent {
-        let (law, lame) = self.law();
+        let (law, lame) = (self.solid.law_of(self.cell), self.lame());
         let mut tangent = self.kinematics.tangent(law, lame, self.pressure, curvature);
         for (_, fibre) in self.fibres() {
             tangent += fibre.tangent(&self.deformation, curvature).whole();
@@ -150,7 +150,7 @@ impl<'a, const D: usize> Response<'a, D> {
     /// Adds a multiple of the stiffness to the lower triangle of the matrix of the cell.
     fn add_stiffness(&self, at: &At<'_, D>, wanted: Stiffness, matrix: &mut CellMatrix) {
         let Stiffness { curvature, factor } = wanted;
-        let (law, lame) = self.law();
+        let (law, lame) = (self.solid.law_of(self.cell), self.lame());
         let parts = self.kinematics.parts(law, lame, self.pressure, curvature);
         let Some(parts) = parts.filter(|_| self.viscous.is_none() && at.curvature == 0.0) else {
             return at.add_tangent(&self.tangent(curvature), factor, matrix);
@@ -161,10 +161,9 @@ impl<'a, const D: usize> Response<'a, D> {
         }
     }
 
-    /// The law of the point and its moduli.
-    fn law(&self) -> (Law, Lame) {
-        let material = self.solid.material_of(self.cell);
-        (self.solid.spec.materials[material].law, self.solid.lame[material])
+    /// The moduli of the point.
+    fn lame(&self) -> Lame {
+        self.solid.lame[self.solid.material_of(self.cell)]
     }
 }
 
