@@ -63,7 +63,7 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let layout = DofLayout::new(mesh, 0, 0);
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
-        let saddle_point = saddle_point(&layout, &constraints, problem.modes());
+        let saddle_point = saddle_point(&layout, &constraints, problem.modes(), &[]);
         let system = NewSystem { constraints: &constraints, saddle_point, blocks: Vec::new() };
         let linear = system_solver(&assembly, system, SolverChoice::Automatic);
         let has_periods = problem.sides.iter().any(|side| matches!(side, Some(Side::Periodic)));

@@ -34,14 +34,15 @@ fn held_pressure<const D: usize>(
     layout.vertices().find(|&vertex| constraints.row(layout.pressure(vertex)).is_empty())
 }
 
-/// Velocities that stand for one body.
+/// Velocities that stand for one body, and rates that do.
 const MODES: [u8; 6] = [0, 1, 2, 3, 4, 5];
 
-/// What each free unknown is.
+/// What each free unknown is, with these coordinates of each body.
 pub(in super::super) fn saddle_point<const D: usize>(
     layout: &DofLayout<D>,
     constraints: &AffineConstraints,
     modes: Modes,
+    coordinates: &[Range<usize>],
 ) -> SaddlePoint {
     let mut parts = vec![None; constraints.n_unknowns()];
     let mut set = |raw: usize, part: Part| {
@@ -65,9 +66,16 @@ pub(in super::super) fn saddle_point<const D: usize>(
             set(layout.rigid(body, position), Part::Rigid { body: index(body), mode });
         }
     }
-    for (coordinate, mode) in (0..layout.n_coordinates).zip(MODES.into_iter().cycle()) {
-        let body = index(layout.n_bodies + coordinate / MODES.len());
-        set(layout.rate(coordinate), Part::Rigid { body, mode });
+    // Sixes of one body each: what no body couples is not coupled here either
+    let mut body = layout.n_bodies;
+    for own in coordinates {
+        let own: Vec<usize> = own.clone().collect();
+        for six in own.chunks(MODES.len()) {
+            for (&coordinate, mode) in six.iter().zip(MODES) {
+                set(layout.rate(coordinate), Part::Rate { body: index(body), mode });
+            }
+            body += 1;
+        }
     }
     SaddlePoint {
         parts: parts.into_iter().flatten().collect(),

@@ -173,7 +173,7 @@ impl<const D: usize> FluidSystem<D> {
         let nullspace = TranslationNullspace::new(problem, mesh, assembly.tables());
         let driven = problem.mean_flow.as_ref();
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
-        let saddle_point = saddle_point(&layout, &constraints, modes);
+        let saddle_point = saddle_point(&layout, &constraints, modes, &problem.coordinates());
         let blocks = blocks_of_bodies(problem, &layout, &constraints);
         look()?;
         let system = NewSystem { constraints: &constraints, saddle_point, blocks };

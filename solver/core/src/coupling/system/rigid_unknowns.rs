@@ -35,7 +35,7 @@ impl<const D: usize> FluidSystem<D> {
         let sides = problem.open_sides();
         let (layout, frame) = (self.layout, self.numbering.frame);
         self.assembly = Assembly::new(mesh, layout, constraints, problem.metric, &sides, frame);
-        let saddle_point = saddle_point(&layout, constraints, self.modes);
+        let saddle_point = saddle_point(&layout, constraints, self.modes, &problem.coordinates());
         let choice = self.numbering.choice;
         let blocks = blocks_of_bodies(problem, &layout, constraints);
         let system = NewSystem { constraints, saddle_point, blocks };

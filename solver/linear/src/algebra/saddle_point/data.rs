@@ -19,12 +19,18 @@ pub enum Part {
         /// The node it belongs to.
         node: u32,
     },
-    /// A velocity of a body: a row and a column with many entries. Those that are not rigid stand six by six for
-    /// bodies behind all others.
+    /// A velocity of a body: a row and a column with many entries.
     Rigid {
         /// The body.
         body: u32,
         /// Translations 0, 1, 2 and rotations 3, 4, 5 about the axes.
+        mode: u8,
+    },
+    /// A rate of a coordinate of a body that is not rigid. Six by six they stand for bodies behind all others.
+    Rate {
+        /// Which six, counted on from the bodies.
+        body: u32,
+        /// Its place among the six.
         mode: u8,
     },
 }
@@ -88,7 +94,7 @@ impl SaddlePoint {
         for (index, part) in self.parts.iter().enumerate() {
             let node = match *part {
                 Part::Velocity { node, .. } | Part::Pressure { node } => node,
-                Part::Rigid { .. } => {
+                Part::Rigid { .. } | Part::Rate { .. } => {
                     unknowns.dense.push(index);
                     0
                 }

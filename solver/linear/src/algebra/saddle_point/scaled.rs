@@ -1,5 +1,7 @@
 //! `Scaled`: a saddle-point system with scaled rows and columns, in double and in single precision.
 
+use std::borrow::Cow;
+
 use super::super::vectors::norm;
 use super::guess::EarlierSolutions;
 use super::matrix::{Blocks, SaddleMatrix};
@@ -29,8 +31,17 @@ impl Scaled<'_> {
         self.preconditioner.apply(self.matrix, r, z);
     }
 
+    /// A residual in the basis of the preconditioner.
+    fn in_basis<'b>(&self, residual: &'b [f64]) -> Cow<'b, [f64]> {
+        let Some(basis) = self.preconditioner.basis() else { return residual.into() };
+        let mut changed = residual.to_vec();
+        basis.change_loads(&mut changed);
+        changed.into()
+    }
+
     /// Euclidean norm of a residual.
     pub fn norm(&self, residual: &[f64]) -> f64 {
+        let residual = self.in_basis(residual);
         let scales = self.preconditioner.scales();
         let places = self.matrix.numbering().places.iter();
         let scaled = residual.iter().zip(places).map(|(value, place)| value * scales.of(*place));
@@ -65,15 +76,19 @@ impl Scaled<'_> {
     /// A residual of this size, as one of norm one in single precision.
     pub fn single(&self, residual: &[f64], size: f64) -> Blocks {
         let scales = self.preconditioner.scales();
+        let residual = self.in_basis(residual);
         self.matrix
             .numbering()
-            .split(residual, |place, value| single(value * (scales.of(place) / size)))
+            .split(&residual, |place, value| single(value * (scales.of(place) / size)))
     }
 
     /// The combination of earlier solutions with the least residual, for a right-hand side of this size.
     pub fn guess(&mut self, earlier: &EarlierSolutions, rhs: &[f64], size: f64) -> Blocks {
         let b = self.single(rhs, size);
         let image = |x: &mut Blocks, image: &mut Blocks| {
+            if let Some(basis) = self.preconditioner.basis() {
+                basis.change_velocities(&mut x.velocity);
+            }
             self.preconditioner.scales().divide(x);
             self.multiply(x, image);
         };
@@ -91,7 +106,15 @@ impl Scaled<'_> {
         let mut unscaled = correction.clone();
         self.preconditioner.scales().multiply(&mut unscaled);
         let mut x = from.x.clone();
-        self.matrix.numbering().add(size, &unscaled, &mut x);
+        match self.preconditioner.basis() {
+            Some(basis) => {
+                let mut change = vec![0.0; x.len()];
+                self.matrix.numbering().add(size, &unscaled, &mut change);
+                basis.restore_velocities(&mut change);
+                x.iter_mut().zip(&change).for_each(|(x, change)| *x += change);
+            }
+            None => self.matrix.numbering().add(size, &unscaled, &mut x),
+        }
         let mut residual = vec![0.0; x.len()];
         self.matrix.multiply(&x, &mut residual);
         for (residual, b) in residual.iter_mut().zip(rhs) {

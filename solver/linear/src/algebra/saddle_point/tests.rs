@@ -1,7 +1,7 @@
 //! Parts of the preconditioner against what they stand for, on systems of a few unknowns.
 
 use super::matrix::{Numbering, SaddleMatrix};
-use super::preconditioner::{Commutator, transfer};
+use super::preconditioner::{BodyBasis, Commutator, transfer};
 use super::{Interpolation, IterativeSettings, IterativeSolver, Part, SaddlePoint, Weights};
 use crate::algebra::{CellFolds, CellMaps, ConstraintBuilder, LinearSolver, Term};
 use crate::sparse::index::to_u32;
@@ -151,6 +151,86 @@ fn the_commutator_inverts_the_schur_complement_of_a_diagonal_block() {
     for (found, expected) in solution.iter().zip(p) {
         assert!((f64::from(found[0]) - expected).abs() < 1e-5 * expected.abs(), "{solution:?}");
     }
+}
+
+/// Three velocities, two pressures and nine rates of a body that is stiff beside the fluid.
+fn stiff_body(held: f64) -> (SaddlePoint, SaddleMatrix) {
+    let mut parts = system().parts[..5].to_vec();
+    let rate = |rate: u8| Part::Rate { body: u32::from(rate / 6), mode: rate % 6 };
+    parts.extend((0..9).map(rate));
+    let system = SaddlePoint { parts, has_held_pressure: false };
+    let entry = |row: usize, column: usize| match (row, column) {
+        // A chain of springs that may move as a whole
+        (5.., 5..) => match row.abs_diff(column) {
+            0 => held + if row == 5 || row == 13 { 1e9 } else { 2e9 },
+            1 => -1e9,
+            _ => 0.0,
+        },
+        (3..5, 3..5) => 0.0,
+        (row, column) => f64::from(u8::try_from((row * column) % 7).expect("it is small")) / 7.0,
+    };
+    let matrix = matrix(&system, entry);
+    (system, matrix)
+}
+
+/// What holds the springs as a whole, and what lets them buckle.
+const HELD: [f64; 2] = [3.0, -3.0];
+
+#[test]
+fn the_own_block_of_a_stiff_body_is_the_identity_in_its_basis() {
+    for held in HELD {
+        check_own_block(&stiff_body(held).1);
+    }
+}
+
+fn check_own_block(matrix: &SaddleMatrix) {
+    let basis = BodyBasis::new(matrix).expect("a body has coordinates");
+    let own = basis.velocity(matrix);
+    for row in 2..5 {
+        for (column, block) in own.row(row).filter(|(column, _)| *column >= 2) {
+            for (b, of_column) in block.iter().enumerate() {
+                for (a, value) in of_column.iter().enumerate() {
+                    let exact = if (row, a) == (column, b) { 1.0 } else { 0.0 };
+                    // What 48 bits of the springs leave of what holds them
+                    assert!((value - exact).abs() < 1e-4, "{row} {a} {column} {b}: {value}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_matrix_in_the_basis_of_its_bodies_is_the_same_matrix() {
+    for held in HELD {
+        let (system, matrix) = stiff_body(held);
+        check_same(&system, &matrix);
+    }
+}
+
+fn check_same(system: &SaddlePoint, matrix: &SaddleMatrix) {
+    let basis = BodyBasis::new(matrix).expect("a body has coordinates");
+    let (velocity, divergence) = (basis.velocity(matrix), basis.divergence(matrix));
+    let n = system.parts.len();
+    let changed: Vec<f64> = (0..n).map(|at| (1.0 + at as f64).sin()).collect();
+    let mut x = changed.clone();
+    basis.restore_velocities(&mut x);
+    let mut exact = vec![0.0; n];
+    matrix.multiply(&x, &mut exact);
+    basis.change_loads(&mut exact);
+    let w = matrix.numbering().split(&changed, |_, value| single(value));
+    let mut found = w.zeros_alike();
+    velocity.multiply(&w.velocity, &mut found.velocity);
+    basis.gradient(&divergence).multiply_add(&w.pressure, &mut found.velocity);
+    divergence.transposed().multiply_transposed(&w.velocity, &mut found.pressure);
+    let size = exact.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+    for (found, exact) in matrix.numbering().values(&found).into_iter().zip(exact) {
+        assert!((f64::from(found) - exact).abs() < 1e-5 * size, "{found} {exact}");
+    }
+    // And back
+    let mut back = matrix.numbering().split(&x, |_, value| single(value));
+    basis.change_velocities(&mut back.velocity);
+    back.add(-1.0, &w);
+    assert!(back.norm() < 1e-3 * w.norm(), "{}", back.norm());
 }
 
 /// A mistake of the program must not read as one of the matrix.

@@ -109,6 +109,31 @@ impl Gradient {
         });
     }
 
+    /// The same with other rows in place of some, which `of_row` gives as pressures with their values, ascending.
+    pub fn with_rows(&self, mut of_row: impl FnMut(usize) -> Option<Vec<(u32, [f32; B])>>) -> Self {
+        let mut all = Self {
+            n_pressures: self.n_pressures,
+            starts: vec![0],
+            pressures: Vec::with_capacity(self.pressures.len()),
+            values: Vec::with_capacity(self.values.len()),
+        };
+        for row in 0..self.starts.len() - 1 {
+            let entries = self.entries(row);
+            match of_row(row) {
+                Some(others) => others.into_iter().for_each(|(pressure, value)| {
+                    all.pressures.push(pressure);
+                    all.values.push(value);
+                }),
+                None => {
+                    all.pressures.extend(&self.pressures[entries.clone()]);
+                    all.values.extend(&self.values[entries]);
+                }
+            }
+            all.starts.push(all.pressures.len());
+        }
+        all
+    }
+
     /// The same with one more pressure, the one that is held: together they have no gradient where they
     /// are equal.
     pub fn with_held_pressure(&self) -> Self {

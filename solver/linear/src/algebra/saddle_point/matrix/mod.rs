@@ -213,6 +213,16 @@ impl SaddleMatrix {
         }
     }
 
+    /// Columns and blocks of a row of F, in double precision.
+    pub(super) fn velocity_row(&self, row: usize) -> impl Iterator<Item = (usize, [[f64; B]; B])> {
+        let entries = self.velocity.entries(row);
+        let blocks = self.velocity.blocks()[entries.clone()].iter();
+        let blocks = blocks.zip(&self.velocity_rest[entries]).map(|(leading, rest)| {
+            std::array::from_fn(|b| std::array::from_fn(|a| whole(leading[b][a], rest[b][a])))
+        });
+        self.velocity.columns(row).iter().map(|&column| column as usize).zip(blocks)
+    }
+
     /// A row of F u + G p.
     fn row_product(&self, row: usize, u: &[[f64; B]], p: &[f64]) -> [f64; B] {
         let mut sum = [0.0; B];

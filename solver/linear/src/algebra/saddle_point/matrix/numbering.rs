@@ -15,8 +15,10 @@ pub(in super::super) struct Numbering {
     pub pressures: Vec<u32>,
     /// Blocks of nodes.
     pub n_nodes: usize,
-    /// Bodies with an unknown rigid velocity: the last pairs of blocks.
+    /// Bodies with an unknown rigid velocity, and sixes of rates: the last pairs of blocks.
     pub n_bodies: usize,
+    /// Which of these pairs have rates of coordinates.
+    pub has_rates: Vec<bool>,
 }
 
 /// Numbers given to keys in the order they are first seen.
@@ -58,7 +60,7 @@ impl Numbering {
                 pressures.push(to_u32(unknown));
                 Place::Pressure(to_u32(pressures.len() - 1))
             }
-            Part::Rigid { body, mode } => Place::Velocity {
+            Part::Rigid { body, mode } | Part::Rate { body, mode } => Place::Velocity {
                 row: n_nodes + 2 * bodies.number(body) + u32::from(mode / 3),
                 component: mode % 3,
             },
@@ -67,12 +69,16 @@ impl Numbering {
         let n_nodes = n_nodes as usize;
         let n_bodies = bodies.count as usize;
         let mut blocks = vec![[None; B]; n_nodes + 2 * n_bodies];
-        for (unknown, place) in places.iter().enumerate() {
+        let mut has_rates = vec![false; n_bodies];
+        for (unknown, (place, part)) in places.iter().zip(&system.parts).enumerate() {
             if let Place::Velocity { row, component } = *place {
                 blocks[row as usize][usize::from(component)] = Some(to_u32(unknown));
+                if matches!(part, Part::Rate { .. }) {
+                    has_rates[(row as usize - n_nodes) / 2] = true;
+                }
             }
         }
-        Self { places, blocks, pressures, n_nodes, n_bodies }
+        Self { places, blocks, pressures, n_nodes, n_bodies, has_rates }
     }
 
     /// The other block of the body whose block is in a row.

@@ -1,10 +1,13 @@
 //! `Preconditioner`: the upper block-triangular matrix [F G; 0 -S] with approximate inverses of F and S.
 
+mod body_basis;
 mod commutator;
 mod scales;
 mod schur;
 mod transfer;
+mod triangular;
 
+pub(super) use self::body_basis::BodyBasis;
 #[cfg(test)]
 pub(super) use self::commutator::Commutator;
 use self::scales::Scales;
@@ -31,6 +34,8 @@ const CONVECTIVE: f64 = 1e-3;
 /// An approximate inverse of a saddle-point matrix, which stays with whoever has it.
 #[derive(Debug)]
 pub(super) struct Preconditioner {
+    /// What stands for F and G where bodies have coordinates.
+    changed: Option<Changed>,
     /// F with diffusion added, where there is convection.
     upwinded: Option<BlockMatrix<B>>,
     velocity: VelocitySolver,
@@ -40,6 +45,41 @@ pub(super) struct Preconditioner {
     /// D of the lumped Schur complement.
     damping: Vec<[f32; B]>,
     scaled: Blocks,
+}
+
+/// A system with the velocities of bodies in a basis of their own.
+#[derive(Debug)]
+struct Changed {
+    basis: BodyBasis,
+    velocity: BlockMatrix<B>,
+    gradient: Gradient,
+    /// The transposed of the divergence, which has other signs than the gradient.
+    divergence: Gradient,
+}
+
+impl Changed {
+    /// None where no body has coordinates.
+    fn new(matrix: &SaddleMatrix) -> Option<Self> {
+        let basis = BodyBasis::new(matrix)?;
+        let (velocity, divergence) = (basis.velocity(matrix), basis.divergence(matrix));
+        let gradient = basis.gradient(&divergence);
+        Some(Self { basis, velocity, gradient, divergence })
+    }
+}
+
+/// F and G in the basis of the preconditioner.
+struct Operators<'a> {
+    block: &'a BlockMatrix<B>,
+    gradient: &'a Gradient,
+}
+
+impl<'a> Operators<'a> {
+    fn of(changed: Option<&'a Changed>, matrix: &'a SaddleMatrix) -> Self {
+        match changed {
+            Some(Changed { velocity, gradient, .. }) => Self { block: velocity, gradient },
+            None => Self { block: matrix.velocity(), gradient: matrix.gradient() },
+        }
+    }
 }
 
 /// What takes the place of F^-1.
@@ -54,7 +94,8 @@ enum VelocitySolver {
 impl Preconditioner {
     /// For a matrix of this system.
     pub fn new(system: &SaddlePoint, weights: &Weights, matrix: &SaddleMatrix) -> Self {
-        let (block, gradient) = (matrix.velocity(), matrix.gradient());
+        let changed = Changed::new(matrix);
+        let Operators { block, gradient } = Operators::of(changed.as_ref(), matrix);
         let numbering = matrix.numbering();
         let n_pairs = numbering.n_bodies;
         let is_dominated = damped_part(weights, numbering, block) > DOMINANT;
@@ -64,7 +105,13 @@ impl Preconditioner {
         let upwinded = smooth.map(|smooth| smooth.matrix);
         let is_commutator = part > CONVECTIVE && weights.inertia == 0.0;
         let smooth = upwinded.as_ref().unwrap_or(block);
-        let transfer = (!is_dominated).then(|| transfer(&weights.interpolation, numbering));
+        let transfer = (!is_dominated).then(|| {
+            let transfer = transfer(&weights.interpolation, numbering);
+            match &changed {
+                Some(Changed { basis, .. }) => basis.in_columns(&transfer),
+                None => transfer,
+            }
+        });
         let velocity = || {
             if let Some(transfer) = transfer {
                 let settings = HierarchySettings {
@@ -88,9 +135,11 @@ impl Preconditioner {
                 SchurComplement::new(weights, gradient, &damping, held)
             }
         };
-        let rest = || (schur(), gradient.transposed(), Scales::new(matrix));
+        let divergence = changed.as_ref().map_or(gradient, |changed| &changed.divergence);
+        let rest = || (schur(), divergence.transposed(), Scales::new(block, gradient));
         let (velocity, (schur, divergence, scales)) = rayon::join(velocity, rest);
         Self {
+            changed,
             upwinded,
             velocity,
             divergence,
@@ -108,7 +157,9 @@ impl Preconditioner {
             VelocitySolver::Polynomial(_) => 0,
         };
         let upwinded = self.upwinded.as_ref().map_or(0, BlockMatrix::n_bytes);
-        velocity + upwinded + self.divergence.n_bytes() + self.schur.n_bytes()
+        let changed = self.changed.as_ref();
+        let changed = changed.map_or(0, |own| own.velocity.n_bytes() + 2 * own.gradient.n_bytes());
+        changed + velocity + upwinded + self.divergence.n_bytes() + self.schur.n_bytes()
     }
 
     /// The factors of rows and columns.
@@ -116,26 +167,32 @@ impl Preconditioner {
         &self.scales
     }
 
+    /// What bodies with coordinates are solved for in place of their velocities.
+    pub fn basis(&self) -> Option<&BodyBasis> {
+        self.changed.as_ref().map(|changed| &changed.basis)
+    }
+
     /// Overwrites y with S A S x, with S the diagonal matrix of the scales.
     pub fn multiply(&mut self, matrix: &SaddleMatrix, x: &Blocks, y: &mut Blocks) {
-        let Self { divergence, scales, scaled, .. } = self;
+        let Self { changed, divergence, scales, scaled, .. } = self;
+        let Operators { block, gradient } = Operators::of(changed.as_ref(), matrix);
         scaled.clone_from(x);
         scales.multiply(scaled);
-        matrix.velocity().multiply(&scaled.velocity, &mut y.velocity);
-        matrix.gradient().multiply_add(&scaled.pressure, &mut y.velocity);
+        block.multiply(&scaled.velocity, &mut y.velocity);
+        gradient.multiply_add(&scaled.pressure, &mut y.velocity);
         divergence.multiply_transposed(&scaled.velocity, &mut y.pressure);
         scales.multiply(y);
     }
 
     /// Overwrites z with S^-1 M^-1 S^-1 r for the approximation M of the matrix.
     pub fn apply(&mut self, matrix: &SaddleMatrix, r: &Blocks, z: &mut Blocks) {
-        let Self { upwinded, velocity, schur, scales, scaled, .. } = self;
-        let block = matrix.velocity();
+        let Self { changed, upwinded, velocity, schur, scales, scaled, .. } = self;
+        let Operators { block, gradient } = Operators::of(changed.as_ref(), matrix);
         scaled.clone_from(r);
         scales.divide(scaled);
         z.pressure.copy_from_slice(&scaled.pressure);
         schur.solve(block, &mut z.pressure);
-        matrix.gradient().multiply_add(&z.pressure, &mut scaled.velocity);
+        gradient.multiply_add(&z.pressure, &mut scaled.velocity);
         z.pressure.iter_mut().for_each(|value| *value = -*value);
         match velocity {
             VelocitySolver::Cycle(hierarchy) => {

@@ -1,6 +1,7 @@
 //! `Scales`: factors of rows and columns that make all equations weigh the same.
 
-use super::super::matrix::{B, Blocks, Numbering, Place, SaddleMatrix};
+use super::super::matrix::{B, Blocks, Gradient, Place};
+use crate::multigrid::BlockMatrix;
 
 /// Factors of rows and columns, one for each unknown.
 ///
@@ -14,14 +15,12 @@ pub(in super::super) struct Scales {
 }
 
 impl Scales {
-    /// For a matrix.
-    pub fn new(matrix: &SaddleMatrix) -> Self {
-        let Numbering { blocks, pressures, .. } = matrix.numbering();
-        let gradient = matrix.gradient();
-        let mut factors = Blocks::zeros(blocks.len(), pressures.len());
+    /// For a matrix with these blocks F and G.
+    pub fn new(block: &BlockMatrix<B>, gradient: &Gradient) -> Self {
+        let mut factors = Blocks::zeros(block.n_rows(), gradient.n_pressures());
         let Blocks { velocity, pressure } = &mut factors;
         for (row, factors) in velocity.iter_mut().enumerate() {
-            *factors = matrix.velocity().diagonal(row).map(inverse_root);
+            *factors = block.diagonal(row).map(inverse_root);
             for entry in gradient.entries(row) {
                 let of_entry = &mut pressure[gradient.pressures()[entry] as usize];
                 let values = gradient.values()[entry];
