@@ -1,8 +1,9 @@
 //! Orders of convergence on exact and manufactured solutions: velocity L2 3, H1 2, pressure 2;
-//! BDF2 2 in time.
+//! BDF2 2 in time; slip along bodies.
 
 mod profiles;
 mod sides;
+mod slip;
 mod space;
 mod spatial;
 mod time;
