@@ -1,4 +1,4 @@
-//! Searches for the numbers of a steady flow, or of a run without inertia, that make an objective large, by its gradients.
+//! Searches for the numbers of a steady flow, of a run without inertia or of a reduced motion, that make an objective large, by its gradients.
 
 mod constraints;
 mod error;
@@ -7,6 +7,7 @@ mod objective;
 mod optimum;
 mod rounds;
 mod sought;
+mod tier;
 
 pub use constraints::Held;
 pub use error::OptimiseError;

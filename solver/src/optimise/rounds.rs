@@ -17,6 +17,7 @@ use super::numbers::Numbers;
 use super::objective::Objective;
 use super::optimum::Optimum;
 use super::sought::OnOneMesh;
+use super::tier::{Tier, tier_of};
 use crate::case::{CaseError, CaseFile, Diagnostic, FlowOptimisation, Severity, check_starts};
 use crate::gradient::Derivatives;
 
@@ -37,6 +38,7 @@ pub struct FlowSearch {
     spec: FlowOptimisation,
     numbers: Numbers,
     objective: Objective,
+    tier: Box<dyn Tier>,
 }
 
 /// How far a search is.
@@ -86,11 +88,13 @@ impl FlowSearch {
         if !outside.is_empty() {
             return Err(CaseError::Wrong(outside).into());
         }
+        let tier = tier_of(file);
+        tier.check(file)?;
         let numbers = Numbers::new(file);
         numbers.check_bounds()?;
         let held = Multipliers::quantities(&spec.constraint);
         let objective = Objective::new(&spec.objective, &file.case().define, &held);
-        Ok(Self { file: file.clone(), spec, numbers, objective })
+        Ok(Self { file: file.clone(), spec, numbers, objective, tier })
     }
 
     /// Seeks, with a journal of each round in a directory: what stands there of this search is not computed again, and so
@@ -151,7 +155,8 @@ impl FlowSearch {
         let most_rounds = if held.is_empty() { MOST_ROUNDS } else { MOST_ROUNDS_WITH_HELD };
         for round in 1..=most_rounds {
             let start: Vec<f64> = bounded.iter().map(|one| one.start).collect();
-            let mut sought = OnOneMesh::new(&self.numbers, &self.objective, &multipliers, &start);
+            let mut sought =
+                OnOneMesh::new(&self.numbers, &self.objective, &multipliers, &start, &*self.tier);
             if round == 1 {
                 // Why there is no flow is told as it is elsewhere, before there is a journal
                 at_start = sought.quantities(&start)?;
@@ -170,7 +175,9 @@ impl FlowSearch {
             all.extend(last.all.iter().cloned());
             let way = way(&bounded, &start, &last.best.values);
             // Ways that do not fall are from what one mesh differs by from another
-            let is_near = way < NEAR || (last.ended == Ended::Converged && way > 0.5 * way_before);
+            let is_near = !self.tier.has_mesh()
+                || way < NEAR
+                || (last.ended == Ended::Converged && way > 0.5 * way_before);
             let is_left = all.len() < most && round < most_rounds;
             // A method that fails where no flow has failed has met what its mesh is too coarse for
             let may_go_on = last.ended != Ended::Evaluations && sought.failure.is_none();

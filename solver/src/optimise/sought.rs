@@ -3,9 +3,11 @@
 use alewife_reduced::search::{Evaluated, Sought};
 
 use super::constraints::{Held, Multipliers};
+use super::error::OptimiseError;
 use super::numbers::Numbers;
 use super::objective::Objective;
-use crate::gradient::{Derivatives, FlowByNumbers, GradientError, NumberedCase};
+use super::tier::{Quantities, Tier};
+use crate::gradient::{Derivatives, NumberedCase};
 
 /// The objective of a flow, on the mesh of the case at the start of a round.
 pub struct OnOneMesh<'a> {
@@ -14,7 +16,8 @@ pub struct OnOneMesh<'a> {
     multipliers: Multipliers,
     start: Vec<f64>,
     /// Made when it is first needed: a search that goes on may know all of a round.
-    flows: Option<FlowByNumbers>,
+    flows: Option<Box<dyn Quantities>>,
+    tier: &'a dyn Tier,
     /// What has been found, with the values it was found for.
     known: Vec<Known>,
     /// Why the last evaluation failed, if it did.
@@ -34,6 +37,7 @@ impl<'a> OnOneMesh<'a> {
         objective: &'a Objective,
         multipliers: &Multipliers,
         start: &[f64],
+        tier: &'a dyn Tier,
     ) -> Self {
         Self {
             numbers,
@@ -41,6 +45,7 @@ impl<'a> OnOneMesh<'a> {
             multipliers: multipliers.clone(),
             start: start.to_vec(),
             flows: None,
+            tier,
             known: Vec::new(),
             failure: None,
         }
@@ -52,7 +57,7 @@ impl<'a> OnOneMesh<'a> {
     }
 
     /// The quantities of the objective at values.
-    pub fn quantities(&mut self, values: &[f64]) -> Result<Vec<Derivatives>, GradientError> {
+    pub fn quantities(&mut self, values: &[f64]) -> Result<Vec<Derivatives>, OptimiseError> {
         if let Some(known) = self.known.iter().find(|known| known.values == values) {
             return Ok(known.quantities.clone());
         }
@@ -60,7 +65,7 @@ impl<'a> OnOneMesh<'a> {
         self.numbers.checked(values)?;
         let flows = match self.flows.take() {
             Some(flows) => flows,
-            None => FlowByNumbers::new(&self.numbers.case(&self.start)?)?,
+            None => self.tier.begin(&self.numbers.case(&self.start)?)?,
         };
         let numbered = NumberedCase {
             case: &|values| self.numbers.case(values),
@@ -75,7 +80,7 @@ impl<'a> OnOneMesh<'a> {
     }
 
     /// What is held, at values.
-    pub fn held(&mut self, values: &[f64]) -> Result<Vec<Held>, GradientError> {
+    pub fn held(&mut self, values: &[f64]) -> Result<Vec<Held>, OptimiseError> {
         let quantities = self.quantities(values)?;
         Ok(self.multipliers.held(self.numbers, values, &quantities)?)
     }

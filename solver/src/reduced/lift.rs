@@ -94,7 +94,20 @@ impl Reduced {
         &self,
         coefficients: impl Fn(usize, &[f64]) -> Vec<T>,
     ) -> Result<Tree<T>, TreeError> {
+        self.tree_of(coefficients, |_, _| ())
+    }
+
+    /// The same with joints that are changed, by the numbers of their links.
+    ///
+    /// # Errors
+    /// None that its own tree has not.
+    pub fn tree_of<T: Number>(
+        &self,
+        coefficients: impl Fn(usize, &[f64]) -> Vec<T>,
+        change: impl Fn(usize, &mut Joint<T>),
+    ) -> Result<Tree<T>, TreeError> {
         let mut links: Vec<Link<T>> = self.tree.links().iter().map(link).collect();
+        links.iter_mut().enumerate().for_each(|(nth, link)| change(nth, &mut link.joint));
         for (body, part) in self.parts.iter().enumerate() {
             let own = coefficients(body, &part.coefficients);
             links[part.link].loads.extend(part.loads(&own));

@@ -1,7 +1,7 @@
 //! Quantities of bodies and joints of a reduced model, under the names of a full run.
 
-use alewife_reduced::tree::compiled::{Looked, look};
-use alewife_reduced::tree::{Drive, Pose, State, Twist, Wrench};
+use alewife_reduced::tree::compiled::{Compiled, Looked};
+use alewife_reduced::tree::{Drive, Number, Pose, State, Tree, Twist, Wrench, real};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use super::build::Reduced;
@@ -10,23 +10,23 @@ use crate::case::{BodyQuantity, Component, JointQuantity, Source, SwimmerQuantit
 
 /// A quantity.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Value {
-    Scalar(f64),
-    Vector(Vector3<f64>),
+pub(super) enum Value<T: Number = f64> {
+    Scalar(T),
+    Vector(Vector3<T>),
     Quaternion(Quaternion<f64>),
 }
 
-impl Value {
-    pub fn component(self, component: Component) -> f64 {
+impl<T: Number> Value<T> {
+    pub fn component(self, component: Component) -> T {
         match (self, component) {
             (Self::Scalar(value), _) => value,
             (Self::Vector(v), Component::X) => v.x,
             (Self::Vector(v), Component::Y) => v.y,
             (Self::Vector(v), _) => v.z,
-            (Self::Quaternion(q), Component::X) => q.i,
-            (Self::Quaternion(q), Component::Y) => q.j,
-            (Self::Quaternion(q), Component::Z) => q.k,
-            (Self::Quaternion(q), _) => q.w,
+            (Self::Quaternion(q), Component::X) => real(q.i),
+            (Self::Quaternion(q), Component::Y) => real(q.j),
+            (Self::Quaternion(q), Component::Z) => real(q.k),
+            (Self::Quaternion(q), _) => real(q.w),
         }
     }
 }
@@ -61,22 +61,24 @@ pub(super) fn is_load(source: Source) -> bool {
 
 /// A body at one time, about its centre, in axes of the world.
 #[derive(Debug, Clone)]
-pub(super) struct Moving {
-    pub pose: Pose<f64>,
-    pub twist: Twist<f64>,
+pub(super) struct Moving<T: Number = f64> {
+    pub pose: Pose<T>,
+    pub twist: Twist<T>,
     /// Of the fluid.
-    pub load: Wrench<f64>,
+    pub load: Wrench<T>,
     /// Angle over all turns (rad).
-    pub angle: f64,
-    pub acceleration: Vector3<f64>,
+    pub angle: T,
+    pub acceleration: Vector3<T>,
+}
+
+impl<T: Number> Moving<T> {
+    /// Work of its surface on the fluid (W).
+    pub fn power(&self) -> T {
+        -self.twist.dot(&self.load)
+    }
 }
 
 impl Moving {
-    /// Work of its surface on the fluid (W).
-    pub fn power(&self) -> f64 {
-        -self.twist.dot(&self.load)
-    }
-
     /// A quantity of a body; none of those that only a flow has.
     pub fn value(&self, quantity: BodyQuantity) -> Option<Value> {
         let rotation = Rotation3::from_matrix_unchecked(self.pose.rotation);
@@ -103,10 +105,10 @@ impl Moving {
 
 /// What is remembered of a body.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Last {
+pub(super) struct Last<T: Number = f64> {
     /// Angle over all turns (rad).
-    pub angle: f64,
-    pub velocity: Vector3<f64>,
+    pub angle: T,
+    pub velocity: Vector3<T>,
 }
 
 /// All bodies at a state, with their angles over all turns and their accelerations by the velocities `before`, a
@@ -117,12 +119,7 @@ pub(super) fn bodies(
     before: &[Moving],
     step: f64,
 ) -> Vec<Moving> {
-    let last = |number: usize| {
-        before
-            .get(number)
-            .map(|body: &Moving| Last { angle: body.angle, velocity: body.twist.linear })
-    };
-    bodies_after(reduced, state, step, &last, true)
+    bodies_in(reduced, &reduced.tree, state, before, step)
 }
 
 /// The same by the angle and the velocity that each body had last; loads only where they are asked for.
@@ -133,24 +130,49 @@ pub(super) fn bodies_after(
     last: &dyn Fn(usize) -> Option<Last>,
     has_loads: bool,
 ) -> Vec<Moving> {
-    let Looked { poses, twists, wrenches } = look(&reduced.tree, state, has_loads);
+    bodies_of(reduced, f64::look(&reduced.tree, state, has_loads), step, last)
+}
+
+/// All bodies where the links of a tree over any kind of number are, with their loads.
+pub(super) fn bodies_in<T: Compiled>(
+    reduced: &Reduced,
+    tree: &Tree<T>,
+    state: &State<T>,
+    before: &[Moving<T>],
+    step: T,
+) -> Vec<Moving<T>> {
+    let last = |number: usize| {
+        before
+            .get(number)
+            .map(|body: &Moving<T>| Last { angle: body.angle, velocity: body.twist.linear })
+    };
+    bodies_of(reduced, T::look(tree, state, true), step, &last)
+}
+
+fn bodies_of<T: Number>(
+    reduced: &Reduced,
+    looked: Looked<T>,
+    step: T,
+    last: &dyn Fn(usize) -> Option<Last<T>>,
+) -> Vec<Moving<T>> {
+    let Looked { poses, twists, wrenches } = looked;
     let moving = |(number, part): (usize, &super::part::Part)| {
         let (link, twist) = (&poses[part.link], &twists[part.link]);
-        let load = wrenches
-            .get(part.link)
-            .copied()
-            .unwrap_or_else(|| Wrench { force: Vector3::zeros(), torque: Vector3::zeros() });
-        let arm = link.rotation * part.inside.position;
-        let pose = link.then(&part.inside);
+        let load = wrenches.get(part.link).copied().unwrap_or_else(Wrench::zero);
+        let inside: Pose<T> = super::part::pose(&part.inside);
+        let arm = link.rotation * inside.position;
+        let pose = link.then(&inside);
         let linear = twist.linear + twist.angular.cross(&arm);
         let force = link.rotation * load.force;
         let torque = link.rotation * load.torque - arm.cross(&force);
         let heading = pose.rotation[(1, 0)].atan2(pose.rotation[(0, 0)]);
         let last = last(number);
-        let turns = |last: Last| ((last.angle - heading) / std::f64::consts::TAU).round();
+        let turns =
+            |last: Last<T>| ((last.angle.re() - heading.re()) / std::f64::consts::TAU).round();
+        let standing = Vector3::repeat(real(0.0));
         Moving {
             angle: heading + std::f64::consts::TAU * last.map_or(0.0, turns),
-            acceleration: last.map_or_else(Vector3::zeros, |last| (linear - last.velocity) / step),
+            acceleration: last.map_or(standing, |last| (linear - last.velocity) / step),
             pose,
             twist: Twist { linear, angular: twist.angular },
             load: Wrench { force, torque },

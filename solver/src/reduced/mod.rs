@@ -16,6 +16,7 @@ mod mover;
 mod part;
 mod play;
 mod simulate;
+mod slopes;
 mod swimmer;
 
 pub use calibrate::{
@@ -26,3 +27,4 @@ pub use error::ReducedError;
 pub use exchange::{ExchangeError, Exported, Imported, Remark, RobotFormat, export, import};
 pub use play::{Player, Playing, Scratch};
 pub use simulate::simulate;
+pub use slopes::{MotionByNumbers, SlopeError};

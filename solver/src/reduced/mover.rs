@@ -3,10 +3,10 @@
 use alewife_interrupt::{Stopped, is_requested};
 use alewife_reduced::tree::{
     Command, Connection, Drift, Inputs, Number, Scheme, State, Stepper, Tree, TreeError, Twist,
-    compiled::Compiled, magnus,
+    compiled::Compiled, magnus, real,
 };
 
-use super::acting::Acting;
+use super::acting::{Acting, Asked};
 use super::build::Reduced;
 use super::inputs::pushes::Propeller;
 
@@ -67,7 +67,7 @@ impl<T: Compiled> Rule<T> {
         reduced: &Reduced,
         tree: &Tree<T>,
         state: &mut State<T>,
-        step: f64,
+        step: T,
         inputs: &dyn Inputs<T>,
     ) -> Result<(), TreeError> {
         match (self, &reduced.connection) {
@@ -79,7 +79,7 @@ impl<T: Compiled> Rule<T> {
                     connect(reduced, table, links, state, &|link| inputs.command(at, link))
                 };
                 let moved = magnus(&root, time, step, &mut twist)?;
-                twist(time + step)?;
+                twist(time + step.re())?;
                 state.root = moved;
                 Ok(())
             }
@@ -89,23 +89,45 @@ impl<T: Compiled> Rule<T> {
 }
 
 /// What moves a tree, with what its thrusters remember.
-pub(super) struct Mover<T: Number> {
+pub(super) struct Mover<'a, T: Number> {
     tree: Tree<T>,
     rule: Rule<T>,
     propellers: Vec<Propeller>,
+    asked: Option<Asked<'a, T>>,
+    /// What all times are multiplied by: 1, with the derivatives that times have.
+    pace: T,
 }
 
-impl<T: Compiled> Mover<T> {
+impl<'a, T: Compiled> Mover<'a, T> {
     /// Of a tree of a case in the state that it starts from, whose velocities it finds where there is no inertia.
     ///
     /// # Errors
     /// `TreeError` when nothing resists a motion, or a joint is outside of a table.
     pub fn new(reduced: &Reduced, tree: Tree<T>, state: &mut State<T>) -> Result<Self, TreeError> {
+        Self::asked(reduced, tree, state, None, real(1.0))
+    }
+
+    /// The same where joints are asked for something else, and times have derivatives.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn asked(
+        reduced: &Reduced,
+        tree: Tree<T>,
+        state: &mut State<T>,
+        asked: Option<Asked<'a, T>>,
+        pace: T,
+    ) -> Result<Self, TreeError> {
         let propellers = reduced.propellers.clone();
-        let acting = Acting { reduced, propellers: &propellers };
+        let acting = Acting { reduced, propellers: &propellers, asked };
         let mut rule = Rule::new(reduced, &tree)?;
         rule.begin(reduced, state, &acting)?;
-        Ok(Self { tree, rule, propellers })
+        Ok(Self { tree, rule, propellers, asked, pace })
+    }
+
+    /// The tree it moves.
+    pub fn tree(&self) -> &Tree<T> {
+        &self.tree
     }
 
     /// Advances a state to a time (s).
@@ -125,8 +147,8 @@ impl<T: Compiled> Mover<T> {
         for propeller in &mut self.propellers {
             propeller.advance(state.time, step);
         }
-        let acting = Acting { reduced, propellers: &self.propellers };
-        self.rule.step(reduced, &self.tree, state, step, &acting)?;
+        let acting = Acting { reduced, propellers: &self.propellers, asked: self.asked };
+        self.rule.step(reduced, &self.tree, state, self.pace * step, &acting)?;
         state.time = end;
         Ok(())
     }

@@ -95,7 +95,7 @@ impl Inputs<f64> for Heard<'_> {
 
     fn wrench(&self, time: f64, link: usize, rotation: &Matrix3<f64>) -> Option<Wrench<f64>> {
         let reduced = &self.player.reduced;
-        Acting { reduced, propellers: self.propellers }.wrench(time, link, rotation)
+        Acting { reduced, propellers: self.propellers, asked: None }.wrench(time, link, rotation)
     }
 }
 

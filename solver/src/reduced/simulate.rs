@@ -7,7 +7,7 @@ use super::build::Reduced;
 use super::measure::{Moving, Value, bodies, is_load, joint};
 use super::mover::Mover;
 use super::swimmer::Swimming;
-use crate::case::{Column, Model, Source, TimeSettings, columns};
+use crate::case::{Column, Model, Source, TimeSettings, Unsteady, columns};
 use crate::run::Series;
 
 /// Rows of all quantities that need no flow.
@@ -68,6 +68,13 @@ impl Rows {
     }
 }
 
+/// The ends of steps (s), of which the last one may be shorter.
+pub(super) fn step_ends(time: &Unsteady) -> impl Iterator<Item = f64> {
+    let Unsteady { step, end, .. } = *time;
+    let n_steps = time.n_steps();
+    (1..=n_steps).map(move |number| if number == n_steps { end } else { step * number as f64 })
+}
+
 /// Moves a case by its reduced model, over the steps of `[time.unsteady]`, of second order, without inertia of
 /// fourth. The series has the names of a full run, less those of quantities that only a flow has; without inertia
 /// loads and velocities of a row are those at its time, with inertia the efforts of given joints are those of the
@@ -84,10 +91,7 @@ pub fn simulate(model: &Model) -> Result<Series, ReducedError> {
     let mut mover = Mover::new(&reduced, reduced.tree.clone(), &mut state)?;
     let mut rows = Rows::new(model, &reduced);
     rows.add(&reduced, &state, time.step);
-    let n_steps = time.n_steps();
-    for number in 1..=n_steps {
-        // The last one may be shorter
-        let end = if number == n_steps { time.end } else { time.step * number as f64 };
+    for end in step_ends(time) {
         let step = end - state.time;
         mover.step(&reduced, &mut state, end)?;
         rows.add(&reduced, &state, step);

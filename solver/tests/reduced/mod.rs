@@ -7,6 +7,7 @@ mod exchange;
 mod fish;
 mod guided;
 mod mutations;
+mod slopes;
 pub mod tables;
 mod vehicle;
 mod written_models;

@@ -33,12 +33,27 @@ const AT_THE_END: [&str; 10] = [
     "cycle.lighthill_efficiency",
 ];
 
+/// Of these the one that a reduced model does not have, and those that one without loads does not.
+const OF_A_FLOW: &str = "cycle.lighthill_efficiency";
+const OF_LOADS: [&str; 2] = ["cycle.power", "cycle.cost_of_transport"];
+
+impl Case {
+    /// Whether a search follows the gradient of its reduced model: where it has no other, or the full solver has no
+    /// gradient.
+    #[must_use]
+    pub fn is_searched_reduced(&self) -> bool {
+        self.is_reduced_only() || (self.reduced.is_some() && no_gradient_in_time(self).is_some())
+    }
+}
+
 /// The columns of a case whose gradients are known.
 #[must_use]
 pub fn differentiable_columns(model: &Model) -> Vec<Column> {
     let bodies_and_swimmers = model.bodies.iter().map(|body| &body.name);
     let owners: Vec<&String> =
         bodies_and_swimmers.chain(model.swimmers.iter().map(|swimmer| &swimmer.name)).collect();
+    let is_reduced = model.case.is_searched_reduced();
+    let has_loads = !is_reduced || model.case.reduced_model().connection.is_none();
     let known: &[&str] = match model.case.time {
         TimeSettings::Steady(_) => &NAMES,
         TimeSettings::Unsteady(_) => &AT_THE_END,
@@ -49,6 +64,8 @@ pub fn differentiable_columns(model: &Model) -> Vec<Column> {
             let whole = name.strip_suffix(['x', 'y', 'z']);
             let whole = whole.and_then(|name| name.strip_suffix('.')).unwrap_or(name);
             known.contains(&whole)
+                && !(is_reduced && whole == OF_A_FLOW)
+                && (has_loads || !OF_LOADS.contains(&whole))
         })
     };
     columns(model).into_iter().filter(is_differentiable).collect()

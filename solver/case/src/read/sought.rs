@@ -10,6 +10,9 @@ use crate::{Definitions, FlowParameter, Formula};
 pub const SOLVED_TABLES: [&str; 7] =
     ["boundary", "body", "field", "fluid", "joint", "scales", "swimmer"];
 
+/// The same of a reduced model.
+pub const MOVED_TABLES: [&str; 4] = ["joint", "reduced", "swimmer", "time"];
+
 /// A number that a search changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoughtNumber {

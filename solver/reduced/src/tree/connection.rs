@@ -125,15 +125,15 @@ impl Connection {
 pub fn magnus<T: Number, E>(
     start: &Placement<T>,
     time: f64,
-    step: f64,
+    step: T,
     mut twist: impl FnMut(f64) -> Result<Twist<T>, E>,
 ) -> Result<Placement<T>, E> {
     let apart = 3.0_f64.sqrt() / 6.0;
-    let first = twist(time + step * (0.5 - apart))?;
-    let second = twist(time + step * (0.5 + apart))?;
+    let first = twist(time + step.re() * (0.5 - apart))?;
+    let second = twist(time + step.re() * (0.5 + apart))?;
     let half: T = real(0.5);
     let mean = Twist::zero().plus(&first, half).plus(&second, half);
     let commutator = first.cross(&second);
-    let whole = mean.plus(&commutator, real(step * 3.0_f64.sqrt() / 12.0));
-    Ok(start.moved(&whole, real(step)))
+    let whole = mean.plus(&commutator, step * 3.0_f64.sqrt() / 12.0);
+    Ok(start.moved(&whole, step))
 }

@@ -32,7 +32,7 @@ impl<T: Number> Drift<T> {
         }
         let zeros = vec![real(0.0); tree.n_velocities()];
         let (shift, lag) = (zeros.clone(), zeros);
-        let stage = Stage { implicit: 1.0, shift, lag, is_late: false };
+        let stage = Stage { implicit: real(1.0), shift, lag, is_late: false };
         Ok(Self { equations: Equations::new(&tree), tree, stage })
     }
 
@@ -66,7 +66,7 @@ impl<T: Number> Drift<T> {
         state.root = placed;
         let mut changes = vec![real(0.0); self.tree.n_velocities()];
         self.equations
-            .solve(&self.tree, 1.0, &mut changes, &mut state.efforts)
+            .solve(&self.tree, real(1.0), &mut changes, &mut state.efforts)
             .map_err(|coordinate| singular(time, coordinate))?;
         state.velocities[..n_root].copy_from_slice(&changes[..n_root]);
         Ok(root_twist(self.tree.root, &changes))
@@ -79,12 +79,12 @@ impl<T: Number> Drift<T> {
     pub fn step(
         &mut self,
         state: &mut State<T>,
-        step: f64,
+        step: T,
         inputs: &impl Inputs<T>,
     ) -> Result<(), TreeError> {
         let (root, time) = (state.root, state.time);
         let moved = magnus(&root, time, step, |at| self.twist(state, at, inputs))?;
-        state.time = time + step;
+        state.time = time + step.re();
         state.root = moved;
         let end = state.time;
         self.twist(state, end, inputs)?;

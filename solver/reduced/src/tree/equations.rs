@@ -31,7 +31,7 @@ impl<T: Number, F: Fn(f64, usize) -> Command<T>> Inputs<T> for F {
 #[derive(Debug, Clone)]
 pub(super) struct Stage<T: Number> {
     /// Weight of resistances in the matrix (s).
-    pub implicit: f64,
+    pub implicit: T,
     /// How much farther than the state coordinates are where springs are read.
     pub shift: Vec<T>,
     /// The velocities of the state less those that the step starts from.
@@ -140,7 +140,7 @@ impl<T: Number> Equations<T> {
                 }
             };
             wrench = wrench.plus(&load, one);
-            matrix = matrix.plus(&slope, real(stage.implicit));
+            matrix = matrix.plus(&slope, stage.implicit);
             if let Some(lag) = stage.lag() {
                 let late = pose.twist_inside(&self.motion.twist_by(tree, number, lag));
                 wrench = wrench.plus(&slope.times(&late), one);
@@ -196,7 +196,7 @@ impl<T: Number> Equations<T> {
             Drive::Servo { gain, limit } => {
                 // By the rate at the end of the step, so that a stiff one does not swing about its command, and by
                 // the effort that is left then: the rate it starts from would ask for far more than the limit
-                let whole = if stage.is_late { 2.0 * stage.implicit } else { stage.implicit };
+                let whole = if stage.is_late { stage.implicit * 2.0 } else { stage.implicit };
                 let mut before = rate;
                 if let Some(lag) = stage.lag() {
                     before -= lag[velocity];
@@ -289,7 +289,7 @@ impl<T: Number> Equations<T> {
     pub fn solve(
         &mut self,
         tree: &Tree<T>,
-        step: f64,
+        step: T,
         changes: &mut [T],
         efforts: &mut [T],
     ) -> Result<(), usize> {

@@ -34,7 +34,7 @@ impl<T: Number> Stepper<T> {
     pub fn new(tree: &Tree<T>, scheme: Scheme) -> Self {
         let zeros = vec![real(0.0); tree.n_velocities()];
         let (shift, lag) = (zeros.clone(), zeros.clone());
-        let stage = Stage { implicit: 0.0, shift, lag, is_late: false };
+        let stage = Stage { implicit: real(0.0), shift, lag, is_late: false };
         Self {
             scheme,
             equations: Equations::new(tree),
@@ -45,7 +45,8 @@ impl<T: Number> Stepper<T> {
         }
     }
 
-    /// Advances a state of the tree by a step (s).
+    /// Advances a state of the tree by a step (s), whose derivatives are those of all times in proportion: what is asked
+    /// for at a time is asked for at its real part.
     ///
     /// # Errors
     /// `TreeError::Singular` when nothing holds a velocity, `TreeError::BlowUp` when one is no number any more;
@@ -54,7 +55,7 @@ impl<T: Number> Stepper<T> {
         &mut self,
         tree: &Tree<T>,
         state: &mut State<T>,
-        step: f64,
+        step: T,
         inputs: &impl Inputs<T>,
     ) -> Result<(), TreeError> {
         match self.scheme {
@@ -79,7 +80,7 @@ impl<T: Number> Stepper<T> {
         &mut self,
         tree: &Tree<T>,
         state: &mut State<T>,
-        step: f64,
+        step: T,
         inputs: &impl Inputs<T>,
     ) -> Result<(), TreeError> {
         self.stage.implicit = step;
@@ -88,7 +89,7 @@ impl<T: Number> Stepper<T> {
             *shift = *velocity * step;
         }
         self.equations.assemble(tree, state, &self.stage, inputs);
-        let time = state.time + step;
+        let time = state.time + step.re();
         self.give(tree, &state.velocities, time, inputs);
         self.equations
             .solve(tree, step, &mut self.changes, &mut state.efforts)
@@ -106,20 +107,20 @@ impl<T: Number> Stepper<T> {
         &mut self,
         tree: &Tree<T>,
         state: &mut State<T>,
-        step: f64,
+        step: T,
         inputs: &impl Inputs<T>,
     ) -> Result<(), TreeError> {
         let mut middle = self.middle.take().unwrap_or_else(|| tree.rest());
         middle.clone_from(state);
-        self.half(tree, &mut middle, 0.5 * step, inputs)?;
+        self.half(tree, &mut middle, step * 0.5, inputs)?;
         for k in 0..state.velocities.len() {
             let late = middle.velocities[k] - state.velocities[k];
             self.stage.lag[k] = late;
-            self.stage.shift[k] = late * (-0.5 * step);
+            self.stage.shift[k] = late * (step * -0.5);
         }
         self.stage.is_late = true;
         self.equations.assemble(tree, &middle, &self.stage, inputs);
-        self.give(tree, &state.velocities, state.time + step, inputs);
+        self.give(tree, &state.velocities, state.time + step.re(), inputs);
         self.equations
             .solve(tree, step, &mut self.changes, &mut state.efforts)
             .map_err(|coordinate| singular(middle.time, coordinate))?;
@@ -159,11 +160,11 @@ fn displace<T: Number>(
     tree: &Tree<T>,
     state: &mut State<T>,
     velocities: &[T],
-    step: f64,
+    step: T,
     inputs: &impl Inputs<T>,
 ) {
-    state.time += step;
-    state.root = state.root.moved(&root_twist(tree.root, velocities), real(step));
+    state.time += step.re();
+    state.root = state.root.moved(&root_twist(tree.root, velocities), step);
     for k in tree.n_root()..tree.n_velocities() {
         if tree.links[tree.moved[k]].joint.drive == Drive::Given {
             state.coordinates[k] = inputs.command(state.time, tree.moved[k]).place;

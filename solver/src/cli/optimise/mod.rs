@@ -1,5 +1,5 @@
-//! `optimise`: numbers of a case that make its objective large, of an elastic body without a flow, of a steady flow, or of
-//! the end of a run without inertia.
+//! `optimise`: numbers of a case that make its objective large, of an elastic body without a flow, of a steady flow, of
+//! the end of a run without inertia, or of the motion of a reduced model.
 
 use std::path::{Path, PathBuf};
 
@@ -8,11 +8,11 @@ use alewife_reduced::tier::Which;
 
 use super::exit::{Exit, Failure};
 use super::gradient;
-use super::read::read_case;
+use super::read::{CheckedCase, print_warnings, read_and_check};
 use super::soft::{self, SearchOptions, not_written, prepare, progress_line};
 use super::style::{complain, say};
 use crate::case::soft::SoftFile;
-use crate::case::{CaseFile, printable};
+use crate::case::{CaseFile, check_flow, printable};
 use crate::optimise::{Compared, FlowSearch, Held, OptimiseError, RoundProgress};
 
 /// The file that is written last.
@@ -23,7 +23,7 @@ pub fn optimise(options: &SearchOptions) -> Result<Exit, Failure> {
     if SoftFile::read_if_soft(&options.case, &options.settings.set)?.is_some() {
         return soft::seek(options, Which::Optimisation);
     }
-    let file = read_case(&options.case, &options.settings.set)?;
+    let file = read(options)?;
     let failure = |error| search_failure(&file, error);
     let search = FlowSearch::new(&file).map_err(failure)?;
     let out = options.out.clone().unwrap_or_else(|| default_directory(&file));
@@ -62,6 +62,17 @@ pub fn optimise(options: &SearchOptions) -> Result<Exit, Failure> {
     }
 }
 
+/// Reads the case; the full solver needs tables that a reduced model does not.
+fn read(options: &SearchOptions) -> Result<CaseFile, Failure> {
+    let CheckedCase { file, warnings } = read_and_check(&options.case, &options.settings.set)?;
+    let missing = if file.case().is_searched_reduced() { Vec::new() } else { check_flow(&file) };
+    if !missing.is_empty() {
+        return Err(Failure::wrong(&missing));
+    }
+    print_warnings(&warnings);
+    Ok(file)
+}
+
 /// What the search of a case is about, in a line.
 pub fn search_line(file: &CaseFile) -> Option<String> {
     let spec = file.case().optimisation.as_ref()?;
@@ -83,5 +94,6 @@ pub fn search_failure(file: &CaseFile, error: OptimiseError) -> Failure {
         OptimiseError::Case(error) => error.into(),
         OptimiseError::Gradient(error) => gradient::failure(file, error),
         OptimiseError::Search(error) => soft::search_failure(&error),
+        OptimiseError::Model(error) => Failure::new(Exit::Diverged, error.to_string()),
     }
 }

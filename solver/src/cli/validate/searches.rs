@@ -25,7 +25,7 @@ use crate::validation::{Comparison, MemberReport, Verdict, compare_series};
 pub enum Searched {
     /// Motion and searches of a soft case.
     Soft(Box<SoftFile>),
-    /// The optimum of a steady flow.
+    /// The optimum of a flow or of a reduced motion.
     Optimum(Box<CaseFile>),
     /// A case or a variant that has a reduced model alone.
     Reduced(Box<CaseFile>),
@@ -66,6 +66,7 @@ pub fn split(
                     let CheckedCase { file, .. } = read_and_check(&member, &[])?;
                     split.searched.push(Searched::Reduced(Box::new(file)));
                 }
+                split.searched.extend(optimum(name, only_quick)?);
             }
             Ok(None) => {
                 split.flows.push(name.clone());
@@ -201,7 +202,7 @@ fn reduced(file: &CaseFile) -> Result<Vec<Comparison>, Failure> {
     Ok(compare_series(&file.full_name(), file.case(), &series, 0, 0.0))
 }
 
-/// The optimum of a steady flow.
+/// The optimum of a flow or of a reduced motion.
 fn optimum_of(file: &CaseFile, place: &Place) -> Result<Vec<Comparison>, Failure> {
     let directory = place.of(&file.full_name(), "optimisation")?;
     let optimum = FlowSearch::new(file).and_then(|search| search.seek(&directory, &mut |_| {}));

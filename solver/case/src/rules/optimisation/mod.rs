@@ -14,13 +14,18 @@ use crate::spec::formula::mistake_in_name;
 use crate::text::nearest::nearest;
 use crate::{
     FlowConstraint, FlowObjective, FlowOptimisation, NoGradientInTime, ObjectiveExpression,
-    no_gradient_in_time,
+    TimeSettings, no_gradient_in_time,
 };
 
 pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
     let Some(spec) = &findings.case().optimisation else { return };
-    if let Some(NoGradientInTime { key, message, help }) = no_gradient_in_time(findings.case()) {
-        findings.error(key, format!("[optimisation] follows gradients, and {message}"), help);
+    if findings.case().is_searched_reduced() {
+        check_motion(findings);
+    } else if let Some(NoGradientInTime { key, message, help }) =
+        no_gradient_in_time(findings.case())
+    {
+        let help = format!("{help}; with [reduced] the gradient is that of the reduced model");
+        findings.error(key, format!("[optimisation] follows gradients, and {message}"), &help);
     }
     check_objective(findings, &spec.objective);
     parameters::check(findings, file, spec);
@@ -30,6 +35,20 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
         findings.error(key, format!("`{key}` is 0"), "write 1 or more");
     }
     check_references(findings, file, spec);
+}
+
+/// Whether a reduced model makes steps of one length.
+fn check_motion(findings: &mut Findings<'_>) {
+    let (key, message) = match &findings.case().time {
+        TimeSettings::Steady(_) => ("time.steady", "a reduced model has no steady flow"),
+        TimeSettings::Unsteady(time) if time.adaptive.is_some() || !time.step.is_finite() => {
+            ("time.unsteady", "the steps of a reduced model have one length")
+        }
+        TimeSettings::Unsteady(_) => return,
+    };
+    let message =
+        format!("[optimisation] follows the gradient of the reduced model, and {message}");
+    findings.error(key, message, "write [time.unsteady] with `step` and `end`");
 }
 
 /// Whether gradients are known of all quantities.

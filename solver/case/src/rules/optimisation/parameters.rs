@@ -3,12 +3,12 @@
 use super::constant::check_constant;
 use crate::read::CaseFile;
 use crate::read::WrittenNumber;
-use crate::read::sought::{SOLVED_TABLES, SoughtNumber};
+use crate::read::sought::{MOVED_TABLES, SOLVED_TABLES, SoughtNumber};
 use crate::rules::Findings;
 use crate::spec::formula::mistake_in_name;
 use crate::text::diagnostic::CaseError;
 use crate::text::nearest::nearest;
-use crate::{FlowOptimisation, FlowParameter};
+use crate::{Case, FlowOptimisation, FlowParameter};
 
 /// Part of a number by which it is changed to see whether it can be.
 const CHANGE: f64 = 1e-4;
@@ -52,13 +52,17 @@ fn check_keys(
             report_unknown(findings, file, &here, key);
             continue;
         }
-        if !is_solved(key) {
-            findings.error(
-                &here,
-                format!("`{key}` is no number of what is solved, and has no derivative"),
+        let tables = tables(findings.case());
+        if !is_solved(key, tables) {
+            let help = if findings.case().is_searched_reduced() {
+                "searches by the reduced model change numbers of gaits in [[swimmer]], of [[joint]] and [reduced], and \
+                 of [time]"
+            } else {
                 "searches change numbers of [fluid], [boundary], [[body]], [[swimmer]], [[joint]], [field] and \
-                 [scales]; sides of the domain stay where they are",
-            );
+                 [scales]; sides of the domain stay where they are"
+            };
+            let message = format!("`{key}` is no number of what is solved, and has no derivative");
+            findings.error(&here, message, help);
             continue;
         }
         if *n_numbers.get_or_insert(found.len()) != found.len() {
@@ -78,8 +82,9 @@ fn check_keys(
 
 /// Reports a key that leads to no number, with what would be right.
 fn report_unknown(findings: &mut Findings<'_>, file: &CaseFile, here: &str, key: &str) {
-    let known = file.number_keys();
-    let known: Vec<&str> = known.iter().map(String::as_str).filter(|key| is_solved(key)).collect();
+    let (known, tables) = (file.number_keys(), tables(findings.case()));
+    let known: Vec<&str> =
+        known.iter().map(String::as_str).filter(|key| is_solved(key, tables)).collect();
     let meant = nearest(key, &known).map(|key| format!("did you mean `{key}`? "));
     let message = format!("`{key}` is no number that is written in the case");
     let help = format!(
@@ -91,8 +96,13 @@ fn report_unknown(findings: &mut Findings<'_>, file: &CaseFile, here: &str, key:
 }
 
 /// Whether a key is that of a number of what is solved.
-fn is_solved(key: &str) -> bool {
-    SOLVED_TABLES.contains(&key.split('.').next().unwrap_or_default()) && !key.ends_with(".size")
+fn is_solved(key: &str, tables: &[&str]) -> bool {
+    tables.contains(&key.split('.').next().unwrap_or_default()) && !key.ends_with(".size")
+}
+
+/// Tables with numbers that a search of a case may change.
+fn tables(case: &Case) -> &'static [&'static str] {
+    if case.is_searched_reduced() { &MOVED_TABLES } else { &SOLVED_TABLES }
 }
 
 /// Whether a number can be another one: of what is counted there are no derivatives.

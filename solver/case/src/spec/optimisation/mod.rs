@@ -1,4 +1,4 @@
-//! `[optimisation]` of a steady flow: which numbers a search changes, and what it makes large.
+//! `[optimisation]` of a flow or a reduced model: which numbers a search changes, and what it makes large.
 
 mod constraint;
 mod search;

@@ -38,7 +38,7 @@ pub trait Compiled: Number {
         stepper: &mut Stepper<Self>,
         tree: &Tree<Self>,
         state: &mut State<Self>,
-        step: f64,
+        step: Self,
         inputs: &dyn Inputs<Self>,
     ) -> Result<(), TreeError>;
 
@@ -49,9 +49,12 @@ pub trait Compiled: Number {
     fn drift(
         drift: &mut Drift<Self>,
         state: &mut State<Self>,
-        step: f64,
+        step: Self,
         inputs: &dyn Inputs<Self>,
     ) -> Result<(), TreeError>;
+
+    /// Where the links of a tree are, with or without what the fluid does to them.
+    fn look(tree: &Tree<Self>, state: &State<Self>, has_loads: bool) -> Looked<Self>;
 }
 
 macro_rules! compiled {
@@ -61,7 +64,7 @@ macro_rules! compiled {
                 stepper: &mut Stepper<Self>,
                 tree: &Tree<Self>,
                 state: &mut State<Self>,
-                step: f64,
+                step: Self,
                 inputs: &dyn Inputs<Self>,
             ) -> Result<(), TreeError> {
                 stepper.step(tree, state, step, &Any(inputs))
@@ -70,10 +73,15 @@ macro_rules! compiled {
             fn drift(
                 drift: &mut Drift<Self>,
                 state: &mut State<Self>,
-                step: f64,
+                step: Self,
                 inputs: &dyn Inputs<Self>,
             ) -> Result<(), TreeError> {
                 drift.step(state, step, &Any(inputs))
+            }
+
+            fn look(tree: &Tree<Self>, state: &State<Self>, has_loads: bool) -> Looked<Self> {
+                let wrenches = if has_loads { tree.fluid_wrenches(state) } else { Vec::new() };
+                Looked { poses: tree.poses(state), twists: tree.twists(state), wrenches }
             }
         }
     )* };
@@ -82,22 +90,12 @@ macro_rules! compiled {
 compiled!(f64, Dual64);
 
 /// Where links are, how they move, and what the fluid does to them.
-#[derive(Debug, Clone, Default)]
-pub struct Looked {
+#[derive(Debug, Clone)]
+pub struct Looked<T: Number> {
     /// As `Tree::poses` has them.
-    pub poses: Vec<Pose<f64>>,
+    pub poses: Vec<Pose<T>>,
     /// As `Tree::twists` has them.
-    pub twists: Vec<Twist<f64>>,
+    pub twists: Vec<Twist<T>>,
     /// As `Tree::fluid_wrenches` has them; none where they are not asked for.
-    pub wrenches: Vec<Wrench<f64>>,
-}
-
-/// Where the links of a tree are, with or without what the fluid does to them.
-#[must_use]
-pub fn look(tree: &Tree<f64>, state: &State<f64>, has_loads: bool) -> Looked {
-    Looked {
-        poses: tree.poses(state),
-        twists: tree.twists(state),
-        wrenches: if has_loads { tree.fluid_wrenches(state) } else { Vec::new() },
-    }
+    pub wrenches: Vec<Wrench<T>>,
 }
