@@ -56,7 +56,7 @@ impl Motion for OfEel {
         let mut work: T = real(0.0);
         for _ in 0..60 {
             let command = |time: f64, link: usize| eel.command(time, link);
-            stepper.step(&tree, &mut state, 0.02, &command).expect("it moves");
+            stepper.step(&tree, &mut state, real(0.02), &command).expect("it moves");
             work += state.efforts[3] * state.velocities[3] * 0.02;
         }
         vec![state.root.position.x, state.root.position.y, state.root.heading(), work]
@@ -83,7 +83,7 @@ impl Motion for OfEllipsoids {
             ..Command::none()
         };
         for _ in 0..50 {
-            stepper.step(&tree, &mut state, 0.01, &command).expect("it moves");
+            stepper.step(&tree, &mut state, real(0.01), &command).expect("it moves");
         }
         let r = state.root.rotation();
         let mut results = vec![r[(0, 1)], r[(1, 2)], state.coordinates[6], state.coordinates[7]];
@@ -146,7 +146,7 @@ impl Motion for OfTendon {
         let mut state = tree.rest();
         let mut stepper = Stepper::new(&tree, Scheme::Midpoint);
         for _ in 0..40 {
-            stepper.step(&tree, &mut state, 0.01, &Drives([p[5], p[6]])).expect("it moves");
+            stepper.step(&tree, &mut state, real(0.01), &Drives([p[5], p[6]])).expect("it moves");
         }
         vec![
             state.root.position.x,

@@ -1,6 +1,6 @@
 //! Fits of coefficients: linear ones within bounds, and those of motions by their exact derivatives.
 
-use alewife_reduced::tree::{Bounds, Residuals, Scheme, Stepper, TreeError, fit, fit_linear};
+use alewife_reduced::tree::{Bounds, Residuals, Scheme, Stepper, TreeError, fit, fit_linear, real};
 use num_dual::Dual64;
 
 use super::chains::Eel;
@@ -75,7 +75,7 @@ fn track<T: alewife_reduced::tree::Number>(c: [T; 3]) -> Result<Vec<T>, TreeErro
     let mut track = Vec::new();
     for k in 0..75 {
         let command = |time: f64, link: usize| eel.command(time, link);
-        stepper.step(&tree, &mut state, 0.02, &command)?;
+        stepper.step(&tree, &mut state, real(0.02), &command)?;
         if k % 5 == 4 {
             track.extend([state.root.position.x, state.root.position.y, state.root.heading()]);
         }
