@@ -96,7 +96,7 @@ fn track<T: Number>(coefficients: &[T], degrees: f64) -> Result<Vec<Row<T>>, Tre
     for _ in 1..ROWS {
         for _ in 0..STEPS {
             let command = |time: f64, link: usize| command(degrees, time, link);
-            stepper.step(&tree, &mut state, 1.0 / (30.0 * STEPS as f64), &command)?;
+            stepper.step(&tree, &mut state, real(1.0 / (30.0 * STEPS as f64)), &command)?;
         }
         let at = &state.root;
         rows.push([at.position.x, at.position.y, at.heading()]);
