@@ -81,7 +81,7 @@ fn steps_by_their_error_are_no_shorter_on_a_new_mesh() {
         "#;
     for text in [plane, axis] {
         let outcome = run(&case(text));
-        let (time, remeshes) = (column(&outcome, "time"), column(&outcome, "flow.remeshes"));
+        let (time, remeshes) = (&outcome.series.times, column(&outcome, "flow.remeshes"));
         let mut shares = Vec::new();
         for step in 2..time.len() - 2 {
             if remeshes[step] > remeshes[step - 1] {
