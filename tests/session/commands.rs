@@ -73,7 +73,7 @@ fn ten_sessions_at_once_do_what_each_does_alone() {
     let way = |nth: u32| {
         let mut session = open(&model);
         session.command("eel.joint.2", 0.05 * f64::from(nth)).unwrap();
-        session.advance_to(0.15).unwrap();
+        session.advance_to(0.1).unwrap();
         observe(&session, "eel.x").to_bits()
     };
     let together: Vec<u64> = thread::scope(|scope| {

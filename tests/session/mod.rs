@@ -26,7 +26,7 @@ fn text(settings: &str) -> String {
         fluid = {{ model = "navier-stokes", density = 1.0, viscosity = 0.2 }}
         domain.box = {{ min = [-2.5, -1.5], max = [2.5, 1.5] }}
         boundary = {{ left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }}
-        mesh = {{ size = 0.6, surface = 0.2 }}
+        mesh = {{ size = 0.8, surface = 0.3, growth = 0.8, gap_layers = 1 }}
         time.unsteady = {{ step = 0.05, end = 0.6{settings} }}
         [[swimmer]]
         name = "eel"

@@ -152,7 +152,7 @@ fn squirmers_towards_each_other(middle: f64) -> RunSummary {
         fluid = {{ model = "stokes", viscosity = 1.0 }}
         domain.box = {{ min = [0.0, 0.0, 0.0], max = [4.0, 2.0, 2.0] }}
         {PERIODIC}
-        mesh = {{ size = 0.75, surface = 0.3, growth = 0.5, gap_layers = 1 }}
+        mesh = {{ size = 1.0, surface = 0.4, growth = 0.8, gap_layers = 1 }}
         time.unsteady = {{ step = 0.04, end = 0.32 }}
         contact.barrier = {{ range = 0.2, stiffness = 50.0 }}
         [[body]]

@@ -121,7 +121,7 @@ fn jump_of_momentum(scale: f64) -> f64 {
 
 #[test]
 fn a_new_coarse_mesh_keeps_momentum() {
-    let coarse = jump_of_momentum(1.0);
+    let coarse = jump_of_momentum(1.5);
     figure!(coarse, "momentum, coarse");
     assert!(coarse < 1e-6, "{coarse:e}");
 }

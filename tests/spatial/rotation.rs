@@ -249,7 +249,7 @@ fn a_sphere_swings_about_an_oblique_axis_at_the_frequency_of_spring_and_inertia(
             fluid = {{ model = "navier-stokes", density = 1e-6, viscosity = 1e-7 }}
             domain.sphere.radius = 1.5
             boundary.wall = "no-slip"
-            mesh = {{ size = 0.9, surface = 0.45, gap_layers = 1 }}
+            mesh = {{ size = 1.2, surface = 0.6, growth = 1.0, gap_layers = 1 }}
             time.unsteady = {{ step = 0.01, end = 0.5 }}
             [[body]]
             name = "sphere"

@@ -24,7 +24,7 @@ fn pair_in(fluid: &str, joint: &str, step: f64) -> Model {
         fluid = {{ {fluid} }}
         domain.sphere.radius = 4.0
         boundary.wall = "no-slip"
-        mesh = {{ size = 2.0, surface = 0.7, growth = 0.8, gap_layers = 1 }}
+        mesh = {{ size = 3.0, surface = 0.9, growth = 1.0, gap_layers = 1 }}
         time.unsteady = {{ step = {step}, end = 0.2 }}
         body = [
             {{ name = "front", shape.ellipsoid.semi_axes = [0.6, 0.5, 0.4], center = [0.1, 0.2, -0.1], density = 2.0, motion = "free", orientation.turned = {{ axis = [1.0, 2.0, 2.0], angle = 0.4 }} }},
