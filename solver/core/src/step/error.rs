@@ -78,7 +78,7 @@ pub fn at_step(step: usize, time: f64) -> String {
 pub enum FlowError {
     /// Newton's method did not converge.
     #[error(
-        "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iteration{}; {}",
+        "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iteration{}; {}{}",
         if *step == 0 { "steady flow".to_owned() } else { at_step(*step, *time) },
         if *iterations == 1 { "" } else { "s" },
         if *step == 0 {
@@ -86,7 +86,8 @@ pub enum FlowError {
              there may be no steady flow"
         } else {
             "lower time.unsteady.step or refine the mesh"
-        }
+        },
+        found.map_or_else(String::new, |found| found.to_string())
     )]
     NewtonStalled {
         /// Step, 0 for a steady solution.
@@ -97,6 +98,8 @@ pub enum FlowError {
         residual: f64,
         /// Iterations made.
         iterations: usize,
+        /// What a flow was found with, of a steady one.
+        found: Option<FoundWith>,
     },
     /// A velocity or pressure is no longer a number.
     #[error(
@@ -146,6 +149,19 @@ pub enum FlowError {
     },
 }
 
+/// The part of what is not linear with which a flow was found, where it was not with all of it.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error(
+    "; the last flow that was found, {}, is in failure/flow.vtu",
+    if *part == 0.0 { format!("without {of}") } else { format!("with {part:.3} of the {of}") }
+)]
+pub struct FoundWith {
+    /// Between 0 and 1.
+    pub part: f64,
+    /// What it is a part of.
+    pub of: &'static str,
+}
+
 impl FlowError {
     /// The failure of a linear solve at a step and time (s).
     #[must_use]
@@ -166,7 +182,7 @@ mod tests {
     fn a_number_and_its_noun_agree() {
         let message = |iterations| {
             let (step, time, residual) = (3, 0.5, 1e-2);
-            FlowError::NewtonStalled { step, time, residual, iterations }.to_string()
+            FlowError::NewtonStalled { step, time, residual, iterations, found: None }.to_string()
         };
         assert!(message(1).contains("after 1 iteration;"), "{}", message(1));
         assert!(message(2).contains("after 2 iterations;"), "{}", message(2));

@@ -191,7 +191,7 @@ impl<const D: usize> NewtonFailure<D> {
         match self.reason {
             NewtonStop::Solve(error) => FlowError::from_solve(error, number, time),
             NewtonStop::Stalled => {
-                FlowError::NewtonStalled { step: number, time, residual, iterations }
+                FlowError::NewtonStalled { step: number, time, residual, iterations, found: None }
             }
             NewtonStop::Requested => FlowError::Stopped { step: number, time },
         }

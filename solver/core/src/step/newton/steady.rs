@@ -14,6 +14,7 @@ use super::{
 use crate::case::Steady;
 use crate::coupling::{BodiesAt, Configuration, Problem, RigidBodyEquations, Solution, SolveError};
 use crate::flow::{Convection, FlowTerms, LocalViscosity, Viscosity, ViscosityTerm};
+use crate::step::error::FoundWith;
 use crate::step::{FlowError, StopRequest, Workspace};
 
 /// Residuals relative to that at rest that count as rounding once they stop falling.
@@ -27,6 +28,10 @@ const SMALLEST_STEP: f64 = 1.0 / 64.0;
 const START: f64 = 1e-4;
 /// Growth of the residual from which there is no return.
 const DIVERGENCE: f64 = 1e4;
+
+/// What is raised to its value.
+const DENSITY: &str = "convection";
+const LAW: &str = "change of the viscosity with shear";
 
 /// A steady flow that is asked for.
 #[derive(Clone, Copy)]
@@ -59,7 +64,7 @@ pub struct SteadyFlow<const D: usize> {
 pub struct SteadyFailure<const D: usize> {
     /// Why.
     pub error: Box<FlowError>,
-    /// The last iterate.
+    /// The last flow that was found with less convection, or the last iterate.
     pub last: Solution<D>,
 }
 
@@ -219,10 +224,10 @@ impl<const D: usize> Continuation<'_, D> {
             Attempt::Stalled(end) => return Err(self.undetermined(*end)),
         };
         if !self.problem.viscosity.is_newtonian() {
-            flow = self.follow(work, at, flow, |law| Parts { density: 0.0, law })?;
+            flow = self.follow(work, at, flow, LAW, |law| Parts { density: 0.0, law })?;
         }
         if self.task.has_convection {
-            flow = self.follow(work, at, flow, |density| Parts { density, law: 1.0 })?;
+            flow = self.follow(work, at, flow, DENSITY, |density| Parts { density, law: 1.0 })?;
         }
         Ok(flow)
     }
@@ -233,6 +238,7 @@ impl<const D: usize> Continuation<'_, D> {
         work: &mut Workspace<D>,
         at: &Configuration<'_, D>,
         mut flow: Flow<D>,
+        of: &'static str,
         parts: impl Fn(f64) -> Parts,
     ) -> Result<Flow<D>, SteadyFailure<D>> {
         let (mut part, mut increment) = (0.0, 1.0f64);
@@ -245,7 +251,7 @@ impl<const D: usize> Continuation<'_, D> {
                     increment *= 2.0;
                 }
                 Attempt::Stalled(end) if increment <= SMALLEST_STEP => {
-                    return Err(self.stalled(*end));
+                    return Err(self.stalled(&end, flow, FoundWith { part, of }));
                 }
                 Attempt::Stalled(_) => increment /= 2.0,
             }
@@ -323,13 +329,15 @@ impl<const D: usize> Continuation<'_, D> {
         SteadyFailure { error: Box::new(error), last: end.solution }
     }
 
-    fn stalled(&self, end: Iterate<D>) -> SteadyFailure<D> {
+    /// What diverges says nothing: what is left is the last flow that was found.
+    fn stalled(&self, end: &Iterate<D>, flow: Flow<D>, found: FoundWith) -> SteadyFailure<D> {
         let error = FlowError::NewtonStalled {
             step: 0,
             time: self.task.bodies.shapes.time(),
             residual: end.residual,
             iterations: self.iterations,
+            found: Some(found),
         };
-        SteadyFailure { error: Box::new(error), last: end.solution }
+        SteadyFailure { error: Box::new(error), last: flow.solution }
     }
 }
