@@ -17,15 +17,23 @@ from mcap.reader import make_reader
 
 from alewife_post import open_run
 from alewife_post.members import from_case
+from alewife_post.messages import cloud_of
 
 PUBLISHED = {
     f"foxglove.{path.stem}": json.loads(path.read_text())
     for path in (Path(__file__).parent / "foxglove").glob("*.json")
 }
 
+# What the flow of two squirmers carries
+CARRIED = [
+    "scalar=[{ name = 'dye', diffusivity = 0.1, initial = 'x^2 - y' }]",
+    "tracer=[{ name = 'beads', points = [[0.5, 4.25], [-0.5, 3.5]] }]",
+    "output.fields={ steps = 2 }",
+]
+
 # Case, settings that make it short, and the topics of scenes beside /scene, /walls and /forces
 CASES = {
-    "rigid": ("squirmer-pair", ["time.unsteady.end=0.06", "mesh.scale=2"], set()),
+    "rigid": ("squirmer-pair", ["time.unsteady.end=0.06", "mesh.scale=2", *CARRIED], set()),
     "fish": ("carangiform", ["time.unsteady.end=0.02", "mesh.scale=2"], set()),
     "flagellate": ("sperm-2d", ["time.unsteady.end=0.04", "mesh.scale=2"], set()),
     "axis": ("three-sphere", ["time.unsteady.end=0.3", "mesh.scale=2"], {"/arms"}),
@@ -134,6 +142,36 @@ def test_bodies_that_deform_are_where_the_mesh_has_them(made: tuple) -> None:
     sides = np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1)
     assert sides.max() < 0.2 * np.ptp(outline)
     assert np.abs(shapes[-1].lines[0] - shapes[0].lines[0]).max() > 0
+
+
+def test_clouds_are_what_files_have_at_nodes_and_of_particles(made: tuple) -> None:
+    kind, out, _ = made
+    run = open_run(out)
+    if kind != "rigid":
+        assert not list(run.clouds("/scalars/dye"))
+        return
+    clouds = list(run.clouds("/scalars/dye"))
+    assert [cloud.time for cloud in clouds] == pytest.approx([one.time for one in run.frames])
+    assert 1 < len(clouds) < len(run.series["time"])
+    for cloud in clouds:
+        field = run.field(cloud.time)
+        assert np.ptp(field.scalars["dye"]) > 1
+        np.testing.assert_array_equal(cloud.values, field.scalars["dye"].astype(np.float32))
+        np.testing.assert_array_equal(cloud.points[:, :2], field.nodes.astype(np.float32))
+        assert not cloud.points[:, 2].any()
+    beads = list(run.clouds("/tracers/beads"))
+    assert len(beads) == len(run.series["time"])
+    assert all(len(cloud.points) == 2 and not cloud.values.any() for cloud in beads)
+    np.testing.assert_allclose(beads[0].points, [[0.5, 4.25, 0], [-0.5, 3.5, 0]], rtol=1e-7)
+
+
+def test_a_cloud_that_is_not_one_of_a_run_is_refused() -> None:
+    fields = [{"name": name, "offset": 4 * n} for n, name in enumerate("xyzw")]
+    content = {"fields": fields, "point_stride": 16, "data": "AAAAAAAAgD8AAABAAABAQA=="}
+    cloud = cloud_of(content, 2.0)
+    assert (cloud.time, cloud.points.tolist(), cloud.values.tolist()) == (2, [[0, 1, 2]], [3])
+    with pytest.raises(ValueError, match="a cloud of x, y, z, w is not one"):
+        cloud_of(content | {"point_stride": 20}, 2.0)
 
 
 def test_arms_end_on_bodies(made: tuple) -> None:

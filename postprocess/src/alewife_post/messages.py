@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from dataclasses import dataclass
 from typing import Any
 
@@ -120,6 +121,27 @@ def shape_of(entity: dict[str, Any], time: float) -> Shape:
             for line in entity.get("lines", [])
         ],
     )
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """Points of a message at a time: particles, or the nodes of a mesh with a scalar there."""
+
+    time: float
+    points: Array
+    """`(n, 3)`."""
+    values: Array
+    """A number at each, `(n,)`: the value of a scalar, the time of release of a particle."""
+
+
+def cloud_of(content: dict[str, Any], time: float) -> Cloud:
+    """The points of a `foxglove.PointCloud` as a run writes them, of single precision."""
+    names = [field["name"] for field in content["fields"]]
+    offsets = [field["offset"] for field in content["fields"]]
+    if names[:3] != ["x", "y", "z"] or offsets != [0, 4, 8, 12] or content["point_stride"] != 16:
+        raise ValueError(f"a cloud of {', '.join(names)} is not one that alewife writes")
+    data = np.frombuffer(base64.b64decode(content["data"]), "<f4").reshape(-1, 4)
+    return Cloud(time, data[:, :3].astype(float), data[:, 3].astype(float))
 
 
 def body_history(reports: list[dict[str, Any]]) -> BodyHistory:

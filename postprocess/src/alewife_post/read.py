@@ -20,7 +20,16 @@ from mcap.reader import NonSeekingReader
 from alewife_post import checked, packages
 from alewife_post.asked import Named
 from alewife_post.members import Members, from_case, from_file
-from alewife_post.messages import BodyHistory, Message, Shape, Solid, body_history, shape_of
+from alewife_post.messages import (
+    BodyHistory,
+    Cloud,
+    Message,
+    Shape,
+    Solid,
+    body_history,
+    cloud_of,
+    shape_of,
+)
 from alewife_post.units import Given
 
 if TYPE_CHECKING:
@@ -29,6 +38,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BodyHistory",
+    "Cloud",
     "Field",
     "Frame",
     "Message",
@@ -208,6 +218,15 @@ class Run:
                     yield Message(channel.topic, time, json.loads(message.data))
             except (McapError, struct.error):
                 return
+
+    def clouds(self, topic: str) -> Iterator[Cloud]:
+        """The clouds of points of `run.mcap` under a topic, in the order of time.
+
+        `/scalars/NAME` are as often as fields, `/tracers/NAME` as often as rows.
+        """
+        for message in self.messages():
+            if message.topic == topic:
+                yield cloud_of(message.content, message.time)
 
     @cached_property
     def fields(self) -> list[Frame]:

@@ -26,7 +26,7 @@ pub enum Kind {
     Step,
     /// One body: pose, twist, loads.
     Body,
-    /// Particles that the flow carries.
+    /// Particles that the flow carries, or scalars at nodes.
     Points,
 }
 

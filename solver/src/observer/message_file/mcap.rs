@@ -19,7 +19,7 @@ use serde::Serialize;
 use super::drawing::{Arm, WallBox, arms, forces, walls};
 use super::foxglove::{self, Kind, Severity};
 use super::messages::Messages;
-use super::points::point_cloud;
+use super::points::{point_cloud, scalar_cloud};
 use super::primitives::nanoseconds;
 use super::quantities::Group;
 use super::scene::{Shown, scene};
@@ -59,7 +59,10 @@ pub struct MessageFile {
     /// The same file.
     file: File,
     path: PathBuf,
+    /// Of rows.
     schedule: Schedule,
+    /// Of scalars all over the fluid, which come as often as fields do.
+    field_schedule: Schedule,
     channels: BTreeMap<String, Channel>,
     /// Who looks on while the run is under way.
     live: Option<LiveServer>,
@@ -97,7 +100,7 @@ impl MessageFile {
         history: Option<&History>,
         live: Option<LiveServer>,
     ) -> io::Result<Self> {
-        let cadence = model.case.output.series;
+        let schedule = |cadence| Schedule::new(cadence, history.map(|history| history.time));
         // The file that is there, if any, is replaced once all its messages are in the new one
         let unfinished = unfinished_file(directory.path())?;
         let file = BufWriter::new(unfinished.reopen()?);
@@ -127,7 +130,8 @@ impl MessageFile {
         let mut made = Self {
             writer: Some(writer),
             file: unfinished.reopen()?,
-            schedule: Schedule::new(cadence, history.map(|history| history.time)),
+            schedule: schedule(model.case.output.series),
+            field_schedule: schedule(model.case.output.fields),
             path: directory.path().join("run.mcap"),
             channels: BTreeMap::new(),
             live,
@@ -301,6 +305,9 @@ impl MessageFile {
             self.row(snapshot)?;
             self.draw(snapshot, is_first)?;
         }
+        if self.field_schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {
+            self.scalars(snapshot)?;
+        }
         if snapshot.is_last {
             self.log(Severity::Info, "end")?;
             return self.finish();
@@ -327,6 +334,15 @@ impl MessageFile {
         for report in snapshot.bodies {
             let message = foxglove::body(report, snapshot.step, self.time);
             self.send(&format!("/body/{}", report.name), Kind::Body, &message)?;
+        }
+        Ok(())
+    }
+
+    /// Scalars all over the fluid.
+    fn scalars<const D: usize>(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
+        for (scalar, field) in snapshot.case.scalar.iter().zip(snapshot.scalars) {
+            let message = scalar_cloud(snapshot.mesh, &field.now, self.time);
+            self.send(&format!("/scalars/{}", scalar.name), Kind::Points, &message)?;
         }
         Ok(())
     }
