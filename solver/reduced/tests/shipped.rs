@@ -44,7 +44,7 @@ fn the_beat_of_most_way_per_work_is_that_of_a_sweep() {
     let best = &found.found.best.values;
     // Whole frequencies and amplitudes that know nothing of it
     let frequencies: Vec<f64> = (0..8).map(|k| 0.5 * 1.2_f64.powi(k)).collect();
-    let amplitudes: Vec<f64> = (0..7).map(|k| 0.09 * 1.15_f64.powi(k)).collect();
+    let amplitudes: Vec<f64> = (0..7).map(|k| 0.12 * 1.15_f64.powi(k)).collect();
     let objective = file.case.optimisation.as_ref().expect("it has one").objective.clone();
     let parameters = &file.case.optimisation.as_ref().expect("it has one").parameter;
     let mut seeker = Seeker {
