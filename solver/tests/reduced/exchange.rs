@@ -295,6 +295,9 @@ fn a_world_of_urdf_holds_what_floats_in_it() {
     let loop_ = text.replace("link='base'/><child link='arm'", "link='arm'/><child link='box'");
     let error = import(&loop_, "r.urdf").unwrap_err().to_string();
     assert!(error.contains("two joints are above \"box\""), "{error}");
+    let light = text.replace("<mass value='2'/>", "\n<mass value='-2'/>");
+    let error = import(&light, "r.urdf").unwrap_err().to_string();
+    assert!(error.contains("2: <mass>: `value` is -2\n  help: a number of 0 or more"), "{error}");
 }
 
 /// However deep a file is, it is read or refused.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 use roxmltree::Node;
 
-use super::source::{Read, children, exactly, numbers, refuse};
+use super::source::{Read, children, exactly, not_negative, numbers, refuse};
 
 /// The class of all that names none.
 const MAIN: &str = "main";
@@ -128,12 +128,7 @@ impl<'a> Element<'_, 'a, '_> {
     /// # Errors
     /// When it is none, or below 0.
     pub fn not_negative(&self, name: &str, absent: f64) -> Read<f64> {
-        match self.number(name, absent)? {
-            value if value < 0.0 => {
-                refuse(self.node, format!("`{name}` is {value}"), "a number of 0 or more")
-            }
-            value => Ok(value),
-        }
+        not_negative(self.node, name, self.number(name, absent)?)
     }
 
     /// Numbers, as many as there are.

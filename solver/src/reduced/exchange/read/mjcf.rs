@@ -8,7 +8,7 @@ use super::bodies::{Bodies, FLATTEN};
 use super::defaults::{Defaults, OUTSIDE};
 use super::drives::{Drives, Key, key};
 use super::joined::{Found, Joined, Raw, Whereabouts, joined, length_at_zero};
-use super::source::{Read, Remark, children, exactly, refuse, remark};
+use super::source::{Read, Remark, children, exactly, not_negative, refuse, remark};
 use super::turn::Angles;
 use crate::reduced::exchange::robot::{
     Fluid, JointOf, Motor, MotorLaw, Robot, RobotSite, RobotTendon,
@@ -108,13 +108,8 @@ fn settings(root: Node<'_, '_>) -> Read<Settings> {
     for node in children(root).filter(|node| node.has_tag_name("option")) {
         let one = |name: &str, absent: f64| -> Read<f64> {
             let text = node.attribute(name);
-            let value = text.map_or(Ok([absent]), |text| exactly::<1>(node, name, text));
-            match value? {
-                [value] if value < 0.0 => {
-                    refuse(node, format!("`{name}` is {value}"), "a number of 0 or more")
-                }
-                [value] => Ok(value),
-            }
+            let [value] = text.map_or(Ok([absent]), |text| exactly::<1>(node, name, text))?;
+            not_negative(node, name, value)
         };
         settings.step = one("timestep", settings.step)?;
         (density, viscosity) = (one("density", density)?, one("viscosity", viscosity)?);
@@ -137,9 +132,8 @@ fn settings(root: Node<'_, '_>) -> Read<Settings> {
                 return refuse(flag, what, "leave it on");
             }
         }
-        if density < 0.0 || viscosity < 0.0 || settings.step <= 0.0 {
-            let help = "timestep above 0, density and viscosity of 0 or more";
-            return refuse(node, "a number is out of its range", help);
+        if settings.step == 0.0 {
+            return refuse(node, "`timestep` is 0", "a number above 0");
         }
     }
     settings.fluid = (density > 0.0 || viscosity > 0.0).then_some(Fluid { density, viscosity });

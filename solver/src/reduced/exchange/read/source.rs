@@ -105,6 +105,17 @@ pub(super) fn exactly<const N: usize>(
     }
 }
 
+/// A number of 0 or more.
+///
+/// # Errors
+/// When it is below 0.
+pub(super) fn not_negative(node: Node<'_, '_>, name: &str, value: f64) -> Read<f64> {
+    if value < 0.0 {
+        return refuse(node, format!("`{name}` is {value}"), "a number of 0 or more");
+    }
+    Ok(value)
+}
+
 /// A unit vector along one of any length.
 ///
 /// # Errors

@@ -8,7 +8,7 @@ use roxmltree::Node;
 
 use super::joined::{Found, Joined, MOST_BODIES, Raw, joined};
 use super::mass::{Mass, Solid};
-use super::source::{Read, Remark, children, exactly, refuse, remark, unit};
+use super::source::{Read, Remark, children, exactly, not_negative, refuse, remark, unit};
 use super::turn::roll_pitch_yaw;
 use crate::reduced::exchange::robot::{Robot, RobotJoint};
 
@@ -200,12 +200,7 @@ impl<'a, 'i> File<'a, 'i> {
         let dynamics = find("dynamics");
         let of_dynamics = |name: &str| -> Read<f64> {
             match dynamics.filter(|node| node.attribute(name).is_some()) {
-                Some(node) => match number(node, name)? {
-                    value if value < 0.0 => {
-                        refuse(node, format!("`{name}` is {value}"), "a number of 0 or more")
-                    }
-                    value => Ok(value),
-                },
+                Some(node) => not_negative(node, name, number(node, name)?),
                 None => Ok(0.0),
             }
         };
@@ -244,7 +239,7 @@ fn inertial(link: Node<'_, '_>) -> Read<Mass> {
     let (mut mass, mut inertia) = (0.0, Matrix3::zeros());
     for child in children(node) {
         match child.tag_name().name() {
-            "mass" => mass = number(child, "value")?,
+            "mass" => mass = not_negative(child, "value", number(child, "value")?)?,
             "inertia" => {
                 let [xx, xy, xz] =
                     [number(child, "ixx")?, number(child, "ixy")?, number(child, "ixz")?];
@@ -254,9 +249,6 @@ fn inertial(link: Node<'_, '_>) -> Read<Mass> {
             }
             _ => {}
         }
-    }
-    if mass < 0.0 {
-        return refuse(node, format!("the mass is {mass}"), "0 or more (kg)");
     }
     Ok(Mass { mass, center: Vector3::zeros(), inertia }.seen_from(&origin(node)?))
 }
