@@ -57,6 +57,20 @@ pub struct SearchDirectory {
     pub journals: Vec<Named>,
 }
 
+impl Named {
+    /// The checksum of the case that is searched, where the journal begins with it.
+    pub fn checksum(&self) -> Option<&str> {
+        let (_, rest) = self.journal.search.split_once(" of ")?;
+        rest.split(", ").next()
+    }
+
+    /// The round that the journal begins with, if it is of one.
+    pub fn round(&self) -> Option<usize> {
+        let (_, rest) = self.journal.search.split_once(", round ")?;
+        rest.split(", ").next()?.parse().ok()
+    }
+}
+
 impl SearchDirectory {
     /// That of a directory; none where no search has written.
     pub fn read(path: &Path) -> io::Result<Option<Self>> {
@@ -113,8 +127,8 @@ impl SearchDirectory {
     }
 }
 
-/// The round of a journal; 0 where there is one for all of a search.
-fn round_of(file: &str) -> usize {
+/// The round in the name of a journal; 0 where there is one for all of a search.
+pub fn round_of(file: &str) -> usize {
     let number = file.strip_prefix("round-").and_then(|rest| rest.split(['-', '.']).next());
     number.and_then(|number| number.parse().ok()).unwrap_or(0)
 }

@@ -18,6 +18,8 @@ use crate::case::{CaseFile, MeshFile, OptimumReference};
 pub struct Optimum {
     /// The case with the numbers that were found.
     pub file: CaseFile,
+    /// A number that tells the case it was before from others, which its journals begin with.
+    pub searched: String,
     /// The objective at the best.
     pub objective: f64,
     /// The same where the search started.
@@ -175,6 +177,7 @@ impl Optimum {
         write_whole(&directory.join("case.toml"), text)?;
         let mut report = self.to_json();
         report["case"] = json!(checksum_of_case(directory)?);
+        report["searched"] = json!(self.searched);
         write_whole(&directory.join("report.json"), format!("{report:#}\n"))
     }
 }

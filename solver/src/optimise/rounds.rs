@@ -125,6 +125,7 @@ impl FlowSearch {
             objective_at_start: -objective_at_start,
             held: sought.held(&last.best.values)?,
             file: self.numbers.case(&last.best.values)?,
+            searched: fingerprint(&self.file),
             found: Found { all, ..last },
             n_rounds: n,
             bounded,
@@ -219,17 +220,20 @@ impl FlowSearch {
 
     /// Which search a journal is of.
     fn name(&self, round: usize) -> String {
-        let mut bytes = self.file.case().to_toml().unwrap_or_default().into_bytes();
-        bytes.extend_from_slice(
-            self.file.case().given_mesh().and_then(|mesh| mesh.bytes()).unwrap_or_default(),
-        );
+        let of = fingerprint(&self.file);
         format!(
-            "alewife optimisation of crc32:{:08x}-{}, round {round}, version {}",
-            crc32fast::hash(&bytes),
-            bytes.len(),
+            "alewife optimisation of {of}, round {round}, version {}",
             env!("CARGO_PKG_VERSION")
         )
     }
+}
+
+/// A number that tells the case of a search with its mesh from others.
+fn fingerprint(file: &CaseFile) -> String {
+    let mut bytes = file.case().to_toml().unwrap_or_default().into_bytes();
+    let mesh = file.case().given_mesh().and_then(|mesh| mesh.bytes());
+    bytes.extend_from_slice(mesh.unwrap_or_default());
+    format!("crc32:{:08x}-{}", crc32fast::hash(&bytes), bytes.len())
 }
 
 /// The largest way of a number, in its scale or its logarithm.

@@ -242,8 +242,15 @@ fn what_is_damaged_is_named(at: &Path) {
     let table = fs::read_to_string(at.join("o/evaluations.csv")).unwrap();
     let slope = table.lines().nth(2).unwrap().rsplit(',').next().unwrap().to_owned();
     let (quantity, compared) = (&found["quantities"][0]["value"], &found["comparison"][0]);
+    let searched = found["searched"].as_str().unwrap().to_owned();
     for (file, text, said) in [
         ("evaluations.csv", slope, "line 3 has other numbers than evaluation 2"),
+        (
+            "round-1.journal",
+            searched,
+            "round-1.journal: line 1: it is of a case of 7.0, and report",
+        ),
+        ("round-2.journal", "2, version".to_owned(), "round-2.journal: line 1: it is of round 7"),
         ("report.json", entry("objective", &found["objective"]), "the best evaluation has -18.0"),
         ("report.json", entry("start", &found["start"]), "the first evaluation has -18.4"),
         ("report.json", entry("value", quantity), "its quantities give 7"),
@@ -251,7 +258,8 @@ fn what_is_damaged_is_named(at: &Path) {
         ("case.toml", axis, "`body.0.shape.spheroid.semi_axes.0` is 7, and that of the best"),
     ] {
         let other = text.split_once(": ").map_or_else(String::new, |(key, _)| format!("{key}: "));
-        let other = other + "7.0";
+        // A round is a whole number
+        let other = other + if text.contains(", ") { "7, version" } else { "7.0" };
         let path = at.join("o").join(file);
         let whole = fs::read_to_string(&path).unwrap();
         assert!(whole.contains(&text), "{file} has no {text}: {whole}");

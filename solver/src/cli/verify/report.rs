@@ -36,6 +36,7 @@ pub fn check(search: &SearchDirectory, found: &mut Found) {
             check_quantities(case, &report, found);
         }
         check_compared(&report, found);
+        check_searched(search, &report, found);
         let told = report["case"].as_str();
         if told.is_some_and(|told| checksum_of_case(&search.path).is_ok_and(|own| own != told)) {
             found.wrong("case.toml", "it is not as the search has written it");
@@ -108,6 +109,17 @@ fn check_compared(report: &Value, found: &mut Found) {
         let known = known.and_then(Value::as_f64);
         if known.is_some_and(|known| differs(&one["computed"], known)) {
             found.wrong(FILE, format!("what is compared of `{name}` is not what was found"));
+        }
+    }
+}
+
+/// Journals are of the case that was searched, where the report tells it.
+fn check_searched(search: &SearchDirectory, report: &Value, found: &mut Found) {
+    let Some(told) = report["searched"].as_str() else { return };
+    for one in &search.journals {
+        if let Some(own) = one.checksum().filter(|own| *own != told) {
+            let what = format!("line 1: it is of a case of {own}, and {FILE} of {told}");
+            found.wrong(&one.file, what);
         }
     }
 }

@@ -6,7 +6,7 @@ use super::found::Found;
 use super::run::first_line;
 use super::table::found_rows;
 use super::{report, searched_case};
-use crate::cli::searched::{Named, SearchDirectory};
+use crate::cli::searched::{Named, SearchDirectory, round_of};
 
 /// Looks at what a search has left.
 pub fn verify(search: &SearchDirectory) -> Found {
@@ -28,6 +28,7 @@ pub fn verify(search: &SearchDirectory) -> Found {
             found.wrong(file, format!("line {line} is damaged, and the search is finished"));
         }
     }
+    check_beginnings(search, &mut found);
     if search.state() != "finished" {
         return found;
     }
@@ -37,6 +38,24 @@ pub fn verify(search: &SearchDirectory) -> Found {
         _ => check_calibrated(search, &mut found),
     }
     found
+}
+
+/// Journals begin with one and the same case, and with the round in their name.
+fn check_beginnings(search: &SearchDirectory, found: &mut Found) {
+    let first = search.journals.first().and_then(Named::checksum);
+    for one in &search.journals {
+        if let (Some(own), Some(first)) = (one.checksum(), first)
+            && own != first
+        {
+            let what =
+                format!("line 1: it is of a case of {own}, and the first journal of {first}");
+            found.wrong(&one.file, what);
+        }
+        let named = round_of(&one.file);
+        if let Some(own) = one.round().filter(|own| *own != named) {
+            found.wrong(&one.file, format!("line 1: it is of round {own}"));
+        }
+    }
 }
 
 /// A loop has a row of each round, with what its two searches found.
