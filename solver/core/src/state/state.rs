@@ -79,7 +79,7 @@ pub struct Evolving<const D: usize> {
     pub accelerations: Vec<Twist>,
     /// Rates of change of their velocities (m/s2, rad/s2): others, where the inertia of a body turns with it.
     pub twist_rates: Vec<Twist>,
-    /// The largest speed so far (m/s).
+    /// The largest speed so far, or that is known to come (m/s).
     pub top_speed: f64,
     /// The work done on fluid and bodies so far, and what drives them.
     pub supply: EnergySupply,
@@ -180,6 +180,11 @@ impl<const D: usize> State<D> {
     /// Lets rates jump at present: what was before does not count for what comes.
     pub fn restart(&mut self) {
         self.0.last_step = 0.0;
+    }
+
+    /// Notes a speed (m/s) that is known to come.
+    pub fn expect_speed(&mut self, speed: f64) {
+        self.0.top_speed = self.top_speed.max(speed);
     }
 
     /// Says of the step that was accepted last that it is a piece of one that is not over: it does not count yet.

@@ -23,7 +23,7 @@ mod step;
 mod stepper;
 mod workspace;
 
-pub use accuracy::error_of_second_difference;
+pub use accuracy::{NEARLY_AT_REST, error_of_second_difference};
 pub use error::{FlowError, StepError, at_step};
 pub use explicit::{STAGES, Stage};
 pub use history::INSIDE;

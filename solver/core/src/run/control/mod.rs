@@ -1,6 +1,8 @@
 //! Control of the step size: fixed steps, steps by their error, first steps.
 
 mod adaptive;
+mod ahead;
+mod corners;
 mod fixed;
 mod start;
 
@@ -22,6 +24,11 @@ const SMALLEST_PART_IN_CONTACT: f64 = 1e-8;
 
 /// Part of the domain that no body goes in the smallest step when all is in one system of units.
 const FAR: f64 = 1e-3;
+
+/// Why an error does not fall with the step.
+const JUMPS: &str = "; an error that does not fall with the step is that of something which jumps again and again: look for \
+                     if, sign, floor and tables with steep rows in the velocities, slip and loads of the case; fixed steps, by \
+                     time.unsteady.step, do not look at their error";
 
 /// Factor of the next step after a step with this error over the tolerance, `most` at most; the error goes
 /// with the third power of the step.
@@ -62,7 +69,13 @@ fn step_size_underflow<const D: usize>(
         smallest * state.now.twists.iter().map(|twist| twist.linear.norm()).fold(0.0, f64::max);
     // A wall that a body is driven into is nearer than the smallest step, too, in the end
     let extent = run.simulation.extent();
-    let nearest = moving_mesh.as_ref().zip(state.contact.minimum_gap).map(|(moving, minimum)| {
+    let is_too_large = matches!(error, StepError::LocalErrorTooLarge { .. });
+    let nearest = moving_mesh.as_ref().zip(state.contact.minimum_gap);
+    // Bodies disturb each other's steps where they are no farther apart than large
+    let nearest = nearest.filter(|(moving, minimum)| {
+        !is_too_large || minimum.gap < moving.gaps().reach(minimum.body)
+    });
+    let nearest = nearest.map(|(moving, minimum)| {
         let gaps = moving.gaps();
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
         let hint = match law {
@@ -78,7 +91,9 @@ fn step_size_underflow<const D: usize>(
         let gap = minimum.gap;
         format!("; nearest are `{}` and `{}`, {gap:.3e} apart{hint}", names[0], names[1])
     });
+    let jumps = if is_too_large { JUMPS } else { "" };
     let advice = nearest.unwrap_or_default()
+        + jumps
         + "; the last state is in failure/: look at its flow there, and resume from it with --resume";
     RunError::StepSizeUnderflow { step, time, smallest, reason, advice }
 }

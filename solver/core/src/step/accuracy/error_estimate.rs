@@ -12,8 +12,8 @@ use crate::step::stepper::{Step, TimeStepper};
 /// radius to a hundredth of it.
 const WEIGHT_OF_GAPS: f64 = 10.0;
 
-/// Speed over the largest so far below which the error of a step is no longer relative to it.
-const NEARLY_AT_REST: f64 = 1e-3;
+/// Speed over the largest so far, or still to be given, below which the error of a step is no longer relative to it.
+pub const NEARLY_AT_REST: f64 = 1e-3;
 
 /// Rounding of the places of an elastic body over its size: forces that are differences of large ones amplify that of a
 /// number.
@@ -31,7 +31,7 @@ pub(in crate::step) fn local_error<const D: usize>(
     if !bdf.is_second_order() {
         return 0.0;
     }
-    // What has come to rest is not to be followed down to rounding
+    // What comes to rest, or begins, is not to be followed down to rounding
     let scale = new.top_speed().max(NEARLY_AT_REST * state.top_speed);
     if scale == 0.0 {
         return 0.0;

@@ -7,6 +7,7 @@
 
 use alewife_mesh::Point;
 
+use super::accuracy::NEARLY_AT_REST;
 use super::context::{Guess, StepContext};
 use super::coupled_flow::FlowUnderLoads;
 use super::error::StepError;
@@ -278,7 +279,8 @@ impl<const D: usize> TimeStepper<'_, D> {
         let errors = explicit_errors(rates);
         // Bodies that rest have velocities of rounding, whose errors are as large as they are
         let farthest = poses.iter().map(|pose| pose.center.amax()).fold(0.0, f64::max);
-        let (mut error, mut scale) = (0.0f64, ROUNDING * farthest / size);
+        let rest = (ROUNDING * farthest / size).max(NEARLY_AT_REST * state.top_speed);
+        let (mut error, mut scale) = (0.0f64, rest);
         for (body, of_body) in errors.iter().enumerate() {
             for mode in self.problem.modes().iter() {
                 let length = self.path.length_of(body, mode);
