@@ -6,11 +6,12 @@ use super::joints::stroke;
 use super::midline;
 use super::skin::has_rate;
 use super::slip;
+use crate::read::schema::{alternatives, fitting, whole};
 use crate::rules::flow::boundary::check_factor;
 use crate::rules::{Findings, OneOf};
 use crate::{
-    AnguilliformGait, Body, CarangiformGait, FlagellumGait, GaitSpec, PulsatingGait, ShapeSpec,
-    SquirmerGait, Stroke, TimeSettings,
+    AnguilliformGait, Body, CarangiformGait, FlagellumGait, GaitSpec, Geometry, PulsatingGait,
+    ShapeSpec, SquirmerGait, Stroke, TimeSettings,
 };
 
 /// Lengths of a fish or a flagellate.
@@ -52,6 +53,15 @@ pub fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
     }
 }
 
+/// Names of the shapes that can move by a gait in a geometry; of all others where there are none.
+fn possible_shapes(gait: &GaitSpec, geometry: Geometry) -> Vec<&'static str> {
+    let known = alternatives(&whole()["$defs"]["ShapeSpec"]);
+    let fitting = fitting(known, geometry);
+    let all = gait.shapes();
+    let possible: Vec<&str> = all.iter().copied().filter(|name| fitting.contains(name)).collect();
+    if possible.is_empty() { all.to_vec() } else { possible }
+}
+
 /// Whether a gait fits its body, and its numbers make a motion.
 pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let Some(gait) = &body.gait else { return };
@@ -62,9 +72,8 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
             "write time.unsteady = { step = ..., end = ... }",
         );
     }
-    let shapes = gait.shapes();
-    if !shapes.contains(&body.shape.name()) {
-        let wanted = shapes.join(" or ");
+    if !gait.shapes().contains(&body.shape.name()) {
+        let wanted = possible_shapes(gait, findings.case().geometry).join(" or ");
         findings.error(
             &format!("{key}.gait"),
             format!(

@@ -83,6 +83,9 @@ gait.slip.velocity = ['b*t', 'x']
         }
         let found = first("body.0.shape={ box = { size = [1.0, 1.0] } }").unwrap();
         assert!(found.starts_with("body.0.gait this gait is that of a disc or ellipse"), "{found}");
+        let possible =
+            "give the body the shape of a disc or ellipse or spline or fish or flagellate, or";
+        assert!(found.contains(possible), "{found}");
     }
 
     #[test]
