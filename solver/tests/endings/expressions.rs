@@ -36,6 +36,8 @@ fn expressions_of_all_kinds_are_refused_by_key_place_and_time() {
         "initial = 1.0, body = { b = { value = 'sqrt(0.12 - t)' } }",
     ]
     .map(scalar);
+    let between = "body.0.gait={ slip = { velocity = [0, 'sqrt(cos(64*atan2(y, x)) + 0.1)'] } }";
+    let band = "body.0.gait={ slip = { velocity = [0, 'sqrt(abs(x + 0.09) - 0.002)', 0] } }";
     let late = "boundary.left.velocity.value=['sqrt(0.12 - t)', 0]";
     for (case, settings, key, rest) in [
         (PLANE, vec![late], "boundary.left.velocity.value.0", "and t = 0.15"),
@@ -96,6 +98,20 @@ fn expressions_of_all_kinds_are_refused_by_key_place_and_time() {
             "NaN",
         ),
         (SPACE, vec!["fluid.force=['sqrt(0.12 - t)', 0, 0]"], "fluid.force.0", "t = 0.15"),
+        // Between the places that are looked at before a run, in the frame of the body
+        (
+            PLANE,
+            vec![between, "body.0.center=[0.3, 0.2]", "body.0.angle=0.3"],
+            "body.0.gait.slip.velocity.1",
+            " of the body and t = 0",
+        ),
+        (
+            AXIS,
+            vec![between, stokes, "mesh.surface=0.15"],
+            "body.0.gait.slip.velocity.1",
+            " of the body and t = 0",
+        ),
+        (SPACE, vec![band, stokes], "body.0.gait.slip.velocity.1", " of the body and t = 0"),
     ] {
         let told = refused(case, &settings);
         assert!(told.contains(&format!("`{key}` = ")), "{settings:?}: {told}");

@@ -17,8 +17,8 @@ use crate::coupling::{
     SurfaceLoads, load_derivatives,
 };
 use crate::run::{
-    BodiesInFlow, CaseMesh, CellBound, Dimension, RunError, by_key, simulation_on, simulation_with,
-    steady_value,
+    BodiesInFlow, CaseMesh, CellBound, Dimension, Places, RunError, by_key, simulation_on,
+    simulation_with, steady_value,
 };
 use crate::step::{
     SteadyFlow, SteadyTask, Workspace, solve_steady, steady_convection, steady_terms,
@@ -137,7 +137,9 @@ pub(super) fn steady_flow<const D: usize>(
         stop: None,
     };
     let flow = solve_steady(work, &point.problem, &task);
-    let by_key = |error| by_key(&point.model.case, &point.mesh, RunError::from(error));
+    let places =
+        Places { mesh: &point.mesh, bodies: &point.problem.bodies, poses: point.in_mesh.clone() };
+    let by_key = |error| by_key(&point.model.case, &places, RunError::from(error));
     Ok(flow.map_err(|failure| by_key(*failure.error))?)
 }
 

@@ -48,11 +48,12 @@ pub enum RunError {
     },
     /// An expression of the case has no finite value.
     #[error(
-        "step {step}: `{}` = {} is {} at {} and t = {}",
+        "step {step}: `{}` = {} is {} at {}{} and t = {}",
         found.key,
         found.written,
         found.value,
         coordinates(&found.near),
+        if found.is_of_body { " of the body" } else { "" },
         rounded(found.time)
     )]
     NotFinite {

@@ -42,4 +42,4 @@ pub use snapshot::{BodyReport, LastState, Observer, Recorded, Snapshot};
 pub use solve::{Solve, replay, simulate, simulate_from};
 pub use step_control::{Piece, StepControl};
 pub use timed_step::{Effort, TimedStep};
-pub use watch::{Allowed, AllowedBy, AtHand, CellBound, NotFinite, by_key};
+pub use watch::{Allowed, AllowedBy, AtHand, CellBound, NotFinite, Places, by_key};

@@ -1,6 +1,6 @@
 //! `CaseExpression`: the expressions of a case that a flow and its scalars are sought with, each with its key.
 
-use crate::{BoundaryCondition, Case, Formula, ScalarSpec};
+use crate::{BoundaryCondition, Case, Formula, GaitSpec, ScalarSpec};
 
 /// Where an expression is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,6 +9,8 @@ pub enum ExpressionPlace<'a> {
     Side(&'a str),
     /// On a body, by its name.
     Body(&'a str),
+    /// On a body that slips, by its index, at places in its own frame.
+    Slip(usize),
     /// In the fluid, whose integrals take no nodes.
     Within,
     /// At all nodes.
@@ -82,11 +84,25 @@ impl Case {
         all
     }
 
+    /// All expressions of slip along bodies.
+    fn slip_expressions(&self) -> impl Iterator<Item = CaseExpression<'_>> {
+        self.body.iter().enumerate().flat_map(|(index, body)| {
+            let velocity = match &body.gait {
+                Some(GaitSpec::Slip(gait)) => &gait.velocity[..],
+                _ => &[],
+            };
+            let key = format!("body.{index}.gait.slip.velocity");
+            let slip = components(&key, velocity, ExpressionPlace::Slip(index));
+            slip.collect::<Vec<_>>()
+        })
+    }
+
     /// All expressions that a flow and its scalars are sought with.
     #[must_use]
     pub fn expressions(&self) -> Vec<CaseExpression<'_>> {
         let scalars = (0..self.scalar.len()).flat_map(|index| self.scalar_expressions(index));
-        self.flow_expressions().into_iter().chain(scalars).collect()
+        let flow = self.flow_expressions().into_iter();
+        flow.chain(self.slip_expressions()).chain(scalars).collect()
     }
 }
 

@@ -17,7 +17,7 @@ mod soundness;
 pub(super) use cell_bound::nearest_gap;
 pub use cell_bound::{Allowed, AllowedBy, AtHand, CellBound};
 pub(super) use force_agreement::ForceAgreement;
-pub use given_values::by_key;
+pub use given_values::{Places, by_key};
 pub use not_finite::NotFinite;
 pub(super) use pace::Pace;
 pub(super) use sound_state::SoundState;

@@ -11,6 +11,8 @@ pub struct NotFinite {
     pub value: f64,
     /// Where (m).
     pub near: Vec<f64>,
+    /// Whether that is in the frame of a body.
+    pub is_of_body: bool,
     /// When (s).
     pub time: f64,
 }
