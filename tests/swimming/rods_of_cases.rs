@@ -92,6 +92,47 @@ fn what_a_rod_of_a_case_loses_of_its_elastic_energy_is_work_on_the_fluid() {
     assert!(lost > 0.0 && defect.abs() < 5e-4, "{lost} {defect}");
 }
 
+/// A thin strip in a shear, pulled, with so many elements beside edges of 0.06.
+fn in_shear(fluid: &str, time: &str, elements: usize) -> [f64; 3] {
+    let summary = run(&case(&format!(
+        r#"
+        title = "a strip in a shear"
+        geometry = "planar"
+        fluid = {{ {fluid}, viscosity = 1.0 }}
+        domain.box = {{ min = [-2.0, -2.0], max = [2.0, 2.0] }}
+        boundary = {{ left = "no-slip", right = "no-slip", bottom = "no-slip", top.velocity.value = [1.0, 0.0] }}
+        mesh = {{ size = 0.8, surface = 0.06, growth = 0.5, gap_layers = 1 }}
+        time.unsteady = {{ {time}, step = 0.02, end = 0.02 }}
+        [[body]]
+        name = "rod"
+        shape.fish = {{ length = 1.0, head_width = 0.01, head_end = 0.01, tail_start = 0.98, tail_width = 0.0099, tip_radius = 0.004, corner_radius = 0.01 }}
+        center = [0.0, 0.3]
+        angle = 0.3
+        motion = "free"
+        force = [0.0, -2.0]
+        rod = {{ bending = 1.0, elements = {elements} }}
+        "#
+    )));
+    ["rod.tip.x", "rod.tip.y", "rod.elastic_energy"].map(|name| last(&summary, name))
+}
+
+/// The fluid does not see all rates of a rod whose elements are shorter than the edges on it; at the start, where no time passes, its
+/// bending does not fix them either.
+#[test]
+fn elements_shorter_than_the_cells_beside_them_change_no_motion() {
+    for (fluid, time) in [
+        ("model = \"stokes\"", "initial = \"rest\""),
+        ("model = \"unsteady-stokes\", density = 1.0", "initial = \"stokes\""),
+    ] {
+        let [long, short] = [10, 40].map(|elements| in_shear(fluid, time, elements));
+        let way = (long[0] - short[0]).hypot(long[1] - short[1]);
+        let energy = short[2] / long[2] - 1.0;
+        figure!(way, "{time}: tip");
+        figure!(energy, "{time}: energy");
+        assert!(way < 1e-6 && energy.abs() < 5e-3, "{fluid} {way} {energy}");
+    }
+}
+
 fn turned(time: &str, amplitude: &str) -> Model {
     let body = format!(
         "rod = {{ bending = 0.05, elements = 16 }}\n\

@@ -28,6 +28,10 @@ pub struct FlexibleEquation {
     pub unmoved: DVector<f64>,
     /// Change of the coordinates by the velocities (s).
     pub coefficient: f64,
+    /// Time (s) after which inner forces are taken, to first order, where the coordinates themselves do not change.
+    pub relaxation: f64,
+    /// Whether forces without rates are left out.
+    pub is_unloaded: bool,
     /// An end that turns with the body it is clamped to.
     pub base: Option<TurningBase>,
     /// When (s).
@@ -53,9 +57,22 @@ impl FlexibleEquation {
             history: DVector::zeros(coordinates.len()),
             unmoved: DVector::from_column_slice(coordinates),
             coefficient: 0.0,
+            relaxation: 0.0,
+            is_unloaded: false,
             base: None,
             time,
         }
+    }
+
+    /// The body as it is without rates.
+    fn at_rest(&self) -> [DVector<f64>; 2] {
+        [self.unmoved.clone(), DVector::zeros(self.unmoved.len())]
+    }
+
+    /// How inner forces change with the rates until they are taken; `None` where that is at once.
+    fn relaxing(&self) -> Option<DMatrix<f64>> {
+        let stiffness = || self.tangents(&self.at_rest()).stiffness;
+        (self.relaxation > 0.0).then(|| stiffness() * self.relaxation)
     }
 
     /// The body at these rates of all coordinates.
@@ -83,11 +100,17 @@ impl FlexibleEquation {
     pub(super) fn residual(&self, rates: &[f64]) -> DVector<f64> {
         let BodyAtRates { linear, turned } = self.at(rates);
         let forces = self.forces(&turned);
-        let forces = match &self.base {
+        let mut forces = match &self.base {
             Some(base) => base.forces(&linear[0], &forces),
             None => forces,
         };
         let [_, velocities] = linear;
+        if let Some(relaxing) = self.relaxing() {
+            forces += relaxing * &velocities;
+        }
+        if self.is_unloaded {
+            forces -= self.forces(&self.at_rest());
+        }
         self.body.mass() * (velocities * self.rate + &self.history) + forces
     }
 
@@ -102,7 +125,10 @@ impl FlexibleEquation {
     pub(super) fn tangent(&self, rates: &[f64]) -> DMatrix<f64> {
         let BodyAtRates { linear, turned } = self.at(rates);
         let Tangents { stiffness, damping } = self.tangents(&turned);
-        let inertia = self.body.mass() * self.rate;
+        let mut inertia = self.body.mass() * self.rate;
+        if let Some(relaxing) = self.relaxing() {
+            inertia += relaxing;
+        }
         let Some(base) = &self.base else {
             return inertia + stiffness * self.coefficient + damping;
         };

@@ -176,13 +176,39 @@ impl RigidBodyEquations {
     pub fn steady<const D: usize>(problem: &Problem<D>, poses: &[Pose], time: f64) -> Self {
         let mut equations = Self::without_loads(problem.bodies.len());
         equations.add_loads(problem, time, PosesByVelocity::staying(poses));
+        equations.add_flexible(problem, time);
+        equations
+    }
+
+    /// Bodies that loads have not moved yet, at a time (s).
+    #[must_use]
+    pub fn unloaded<const D: usize>(problem: &Problem<D>, time: f64) -> Self {
+        let mut equations = Self::without_loads(problem.bodies.len());
+        equations.add_flexible(problem, time);
+        for equation in &mut equations.flexible {
+            equation.is_unloaded = true;
+        }
+        equations
+    }
+
+    /// The same equations, with inner forces of bodies with coordinates as they are after a time (s). At once they fix no
+    /// rates that the fluid does not see, such as those of a rod whose elements are shorter than the cells beside it.
+    #[must_use]
+    pub fn relaxing_within(mut self, time: f64) -> Self {
+        for equation in &mut self.flexible {
+            equation.relaxation = time;
+        }
+        self
+    }
+
+    /// Adds bodies with coordinates as they start.
+    fn add_flexible<const D: usize>(&mut self, problem: &Problem<D>, time: f64) {
         for (body, own) in problem.bodies.iter().zip(problem.coordinates()) {
             let Some(flexible) = body.flexible() else { continue };
             let initial = flexible.initial();
             let steady = FlexibleEquation::steady(own.start, flexible, initial.as_slice(), time);
-            equations.flexible.push(steady);
+            self.flexible.push(steady);
         }
-        equations
     }
 
     /// Bodies without acceleration and loads.

@@ -3,6 +3,7 @@
 use alewife_mesh::{Mesh, MeshError, Point};
 
 use super::RunError;
+use super::control::first_piece;
 use super::free_memory;
 use super::simulation::{Simulation, StepScheme};
 use crate::body::Twist;
@@ -100,10 +101,11 @@ impl<const D: usize> Simulation<D> {
         }
         // Where bodies have inertia their loads have not moved them yet
         let equations = if has_inertia {
-            RigidBodyEquations::without_loads(n_bodies)
+            RigidBodyEquations::unloaded(&self.problem, 0.0)
         } else {
             self.steady_equations()
         };
+        let equations = equations.relaxing_within(first_piece(settings));
         let max_iterations = if self.problem.viscosity.is_newtonian() { 5 } else { SHEAR };
         let settings = Steady { tolerance: 1e-10, max_iterations };
         let flow = self.solve_at_start(&settings, &equations, false)?;

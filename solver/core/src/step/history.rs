@@ -218,6 +218,8 @@ impl<const D: usize> StepHistory<D> {
                 history: DVector::from_column_slice(&self.coordinate_derivative[own.clone()]),
                 unmoved: DVector::from_column_slice(&unmoved[own]),
                 coefficient: 1.0 / bdf.next,
+                relaxation: 0.0,
+                is_unloaded: false,
                 base: turning_base(body, poses),
                 time,
             })

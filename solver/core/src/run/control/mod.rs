@@ -6,6 +6,7 @@ mod corners;
 mod fixed;
 mod start;
 
+pub(super) use self::start::first_piece;
 use super::error::RunError;
 use super::run::Run;
 use super::simulation::Simulation;

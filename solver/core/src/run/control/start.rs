@@ -46,6 +46,12 @@ pub(super) fn start_pieces(scheme: Scheme, is_start: bool, step: f64) -> Vec<f64
     }
 }
 
+/// The first piece of a run (s).
+pub(in crate::run) fn first_piece(settings: &Unsteady) -> f64 {
+    let step = settings.step.min(settings.end);
+    start_pieces(settings.scheme, true, step).first().copied().unwrap_or(step)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
