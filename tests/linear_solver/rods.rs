@@ -102,7 +102,7 @@ fn a_stiff_rod_in_space_takes_iterations_as_a_rigid_body() {
 
 /// Over four decades of its stiffness, beyond which rounding leaves more than what is asked for: free, held at its end, on a free body, and two rods at once.
 #[test]
-#[ignore = "long: 120 s; small: a_stiff_rod_in_space_takes_iterations_as_a_rigid_body"]
+#[ignore = "long: 45 s; small: a_stiff_rod_in_space_takes_iterations_as_a_rigid_body"]
 fn iterations_do_not_grow_with_the_stiffness_of_rods_in_space() {
     let pulled = |y| slender(if y == 0.0 { "rod" } else { "other" }, y, "force = [0.2, -0.5, 0.3]");
     let most = most(&in_box(0.3, &[&pulled(0.0), HEAD, &pulled(0.6)]));
