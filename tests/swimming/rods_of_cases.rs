@@ -192,3 +192,36 @@ fn a_rod_on_a_free_body_ends_with_the_same_bits() {
     let rest = resumed(&model, &saved).expect("it continues");
     assert!(bits(&rest) == bits(&whole));
 }
+
+/// A sheet without ends, with a wave of muscles along it and mass, on a mesh that is replaced.
+#[test]
+#[ignore = "long: 5 s; small: a_rod_on_a_mesh_that_is_replaced_ends_with_the_same_bits"]
+fn a_closed_rod_with_mass_ends_with_the_same_bits() {
+    let model = case(
+        r#"
+        title = "a sheet"
+        geometry = "planar"
+        fluid = { model = "unsteady-stokes", viscosity = 1.0, density = 2.0 }
+        domain.box = { min = [-0.5, -0.6], max = [0.5, 0.6] }
+        boundary = { left.periodic = "right", bottom = "no-slip", top = "no-slip" }
+        mesh = { size = 0.2, surface = 0.1, growth = 0.4, gap_layers = 1, moving = { layers = 0.2, quality = 0.9 } }
+        time.unsteady = { step = 0.1, end = 0.8 }
+        [[body]]
+        name = "sheet"
+        shape.fish = { length = 1.0, head_width = 0.05, head_end = 0.05, tail_start = 0.97, tail_width = 0.0498, tip_radius = 0.01, corner_radius = 0.01 }
+        center = [0.0, 0.0]
+        motion = "free"
+        density = 3.0
+        rod = { bending = 0.1, elements = 8, stretching = 1.0, periodic = true }
+        activation = { moment.sine = { amplitude = 0.5, period = 1.0, ramp = 0.5 }, wave_speed = 1.0 }
+        "#,
+    );
+    let whole = simulate::<2>(&model, &mut []).expect("the case runs");
+    assert!(last(&whole, "flow.remeshes") >= 1.0, "{}", last(&whole, "flow.remeshes"));
+    assert!(last(&whole, "sheet.elastic_energy") > 0.05);
+    for steps in [3, 7] {
+        let saved: SavedState<2> = stopped(&model, steps);
+        let rest = resumed(&model, &saved).expect("it continues");
+        assert!(bits(&rest) == bits(&whole), "stopped after {steps} steps");
+    }
+}
