@@ -377,3 +377,24 @@ fn sheets_without_ends_go_from_head_to_tail_across_a_period() {
         assert!(found.contains(&key.to_owned()), "{key}: {found:?}\n{text}");
     }
 }
+
+#[test]
+fn waves_of_muscles_that_do_not_fit_a_sheet_without_ends_are_warned_about() {
+    let with = |active: &str| {
+        let text = sheet(", stretching = 1.0", &format!("activation = {{ {active} }}"));
+        assert_eq!(of_case(&text, Severity::Error), Vec::<String>::new(), "{text}");
+        let found = of_case(&text, Severity::Warning).into_iter();
+        found.filter(|key| key.contains("activation")).collect::<Vec<String>>()
+    };
+    const SINE: &str = "moment.sine = { amplitude = 0.1, period = 0.5, ramp = 0.2 }";
+    for (speed, fits) in [(2.04, true), (-1.02, true), (0.68, true), (2.0, false), (-1.5, false)] {
+        let wanted = if fits { vec![] } else { vec!["body.1.activation.wave_speed".to_owned()] };
+        assert_eq!(with(&format!("{SINE}, wave_speed = {speed}")), wanted, "{speed}");
+    }
+    assert_eq!(with(SINE), Vec::<String>::new());
+    let ends = |last: f64| with(&format!("{SINE}, envelope = [[0.0, 1.0], [1.0, {last}]]"));
+    assert_eq!(ends(1.0), Vec::<String>::new());
+    assert_eq!(ends(0.5), ["body.1.activation.envelope"]);
+    let stepwise = "moment.table = [[0.0, 0.0], [1.0, 1.0]], wave_speed = 1.02";
+    assert_eq!(with(stepwise), ["body.1.activation.wave_speed"]);
+}
