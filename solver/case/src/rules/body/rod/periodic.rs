@@ -97,7 +97,7 @@ fn joint(findings: &mut Findings<'_>, key: &str, active: &Activation, period: f6
         if jump <= JUMP * largest {
             continue;
         }
-        let part = significant(100.0 * jump / largest);
+        let part = format!("{:.0}", 100.0 * jump / largest);
         let message = format!(
             "the {name} that muscles want differs by {part} % where the rod is joined to itself, {} from its head",
             significant(period)
@@ -106,7 +106,7 @@ fn joint(findings: &mut Findings<'_>, key: &str, active: &Activation, period: f6
             (Stroke::Sine { period: time, .. }, Some(speed)) if at_head == at_joint => {
                 let waves = (period / (speed.abs() * time)).round().max(1.0);
                 let fitting = significant(speed.signum() * period / (waves * time));
-                (format!("{key}.wave_speed"), format!("write wave_speed = {fitting}, with which {waves} waves fit"))
+                (format!("{key}.wave_speed"), format!("write wave_speed = {fitting}, with which whole waves fit"))
             }
             (_, None) => (format!("{key}.envelope"), "give its first and its last row the same factor".to_owned()),
             (_, Some(_)) => (
