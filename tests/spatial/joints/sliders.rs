@@ -65,7 +65,7 @@ impl Pair {
             child = "b"
             kind.{joint}, {direction} }}
             "#,
-            surface = if D == 2 { 0.3 } else { 0.6 },
+            surface = if D == 2 { 0.3 } else { 0.35 },
             a = list(center - along * 0.4),
             b = list(center - along * 0.4 + along * self.length),
         ))
