@@ -185,7 +185,7 @@ pub fn assemble<const D: usize>(
     constraints: &AffineConstraints,
     terms: &FlowTerms<'_, D>,
     fields: &Fields<'_, D>,
-    scatter: impl FnMut(usize, &[f64]) + Send,
+    mut scatter: impl FnMut(usize, &[f64]) + Send,
 ) {
     let has_frame = assembly.kernel.layout().n_frame > 0;
     debug_assert!(has_frame || terms.convection != Convection::NewtonInFrame);
@@ -197,7 +197,12 @@ pub fn assemble<const D: usize>(
             assembly.matrices(constraints, input, cells, stride, matrices);
         }
     };
-    for_each_cell(mesh.n_cells(), stride, compute, scatter);
+    for_each_cell(mesh.n_cells(), stride, compute, |cell, matrix| {
+        // To add them takes as long as to compute them
+        if !listener.was_ended() {
+            scatter(cell, matrix);
+        }
+    });
 }
 
 /// The raw residual of the terms at the fields, without anything of the bodies' own.
