@@ -81,11 +81,17 @@ pub enum FlowError {
         "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iteration{}; {}{}",
         if *step == 0 { "steady flow".to_owned() } else { at_step(*step, *time) },
         if *iterations == 1 { "" } else { "s" },
-        if *step == 0 {
-            "refine the mesh, raise time.steady.max_iterations, or lower the Reynolds number: \
-             there may be no steady flow"
-        } else {
-            "lower time.unsteady.step or refine the mesh"
+        match *step {
+            // More iterations help one that comes nearer
+            0 if *residual < 1.0 => {
+                "refine the mesh, raise time.steady.max_iterations, or lower the Reynolds number: \
+                 there may be no steady flow"
+            }
+            0 => {
+                "it went away from the flow: refine the mesh, or lower the Reynolds number: there may be no \
+                 steady flow"
+            }
+            _ => "lower time.unsteady.step or refine the mesh",
         },
         found.map_or_else(String::new, |found| found.to_string())
     )]
