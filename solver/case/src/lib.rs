@@ -23,6 +23,7 @@ pub use quantity::{
     differentiable_columns, known_quantities, no_gradient_in_time, reports_sides,
 };
 pub use read::directory_name::directory_name;
+pub use read::elsewhere::data_elsewhere;
 pub use read::library;
 pub use read::problem_keys::collect_keys;
 pub use read::recording::Recording;
@@ -59,6 +60,7 @@ pub use spec::body::stroke::{Cycle, Stroke, smooth_ramp};
 pub use spec::body::swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use spec::body::{Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, PartSpec, ShapeSpec};
 pub use spec::case::Case;
+pub use spec::comparison::data::DataSpec;
 pub use spec::comparison::reference::{
     Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant,
 };

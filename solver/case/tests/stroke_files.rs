@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use alewife_case::{Case, JointKind};
+use alewife_case::{Case, CaseError, JointKind, data_elsewhere};
 
 const CASE: &str = r#"
 title = "a robot"
@@ -268,4 +268,25 @@ fn angles_in_degrees_are_asked_about_by_how_they_swing() {
     };
     assert!(said(&file("")).contains("by its name in degrees"), "{}", said(&file("")));
     assert!(!said(&file(", unit = \"rad\"")).contains("degrees"));
+}
+
+/// Of one that is not there it is told where it is from; what is written of the case names none.
+#[test]
+fn files_that_do_not_come_with_a_case_are_looked_for_first() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("cases/robot.toml");
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    let data = "[data]\nfiles = [\"../log.csv\"]\nsource = \"a server\"\n";
+    fs::write(&path, format!("{CASE}{data}")).unwrap();
+    let error = Case::read(path.to_str().unwrap(), &[]).unwrap_err();
+    assert!(matches!(error, CaseError::Elsewhere(_)), "{error}");
+    let said = error.to_string();
+    assert!(said.contains("`../log.csv` does not come with the case"), "{said}");
+    assert!(said.contains("robot.toml:16") && said.contains("it is from a server"), "{said}");
+    assert_eq!(data_elsewhere(path.to_str().unwrap()).map(|it| it.to_string()), Some(said));
+
+    fs::write(directory.path().join("log.csv"), "t,q\n0,0.0\n0.5,0.2\n1,0.1\n").unwrap();
+    assert!(data_elsewhere(path.to_str().unwrap()).is_none());
+    let text = read(&path, &[]).to_toml().unwrap();
+    assert!(text.contains("files = []") && text.contains("a server"), "{text}");
 }

@@ -279,6 +279,4 @@ fn wrong_cases_and_records_are_refused_with_key_line_and_remedy() {
     let kept = changed("length_unit = 1e-3", "length_unit = 1e-3\ngaps = \"kept\"");
     assert_eq!(said(&kept, &row(4, "120,NaN,0.1")), "");
     assert!(said(&kept, &row(1, "0,NaN,0.1")).contains("begin at another one"));
-    let elsewhere = changed("\"record.csv\"", "\"other.csv\"\nsource = \"a server\"");
-    assert!(said(&elsewhere, &good).contains("does not come with the case, it is from a server"));
 }

@@ -40,7 +40,7 @@ pub fn list(is_long: bool) -> Result<Exit, Failure> {
         }
     }
     for entry in library::soft() {
-        let file = SoftFile::read(entry.name, &[])?;
+        let Some(file) = SoftFile::declared(entry.name)? else { continue };
         let name = on_stdout(Ink::Bold, &format!("{:<width$}", entry.name));
         say(&format!("{name}  {} (soft)", one_line(&file.case.title)));
     }
@@ -49,7 +49,7 @@ pub fn list(is_long: bool) -> Result<Exit, Failure> {
 
 /// Shows what a case is about, or prints its text.
 pub fn show(argument: &str, is_source: bool) -> Result<Exit, Failure> {
-    let soft = SoftFile::read_if_soft(argument, &[])?;
+    let soft = SoftFile::declared(argument)?;
     let file = match &soft {
         Some(_) => None,
         None => Some(Case::read(argument, &[])?),

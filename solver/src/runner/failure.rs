@@ -101,6 +101,7 @@ impl From<CaseError> for Failure {
         match error {
             CaseError::Wrong(diagnostics) => Self::wrong(&diagnostics),
             CaseError::NotFound { .. } => Self::new(Exit::NoInput, error.to_string()),
+            CaseError::Elsewhere(what) => Self { exit: Exit::NoInput, message: what.to_string() },
             CaseError::Unreadable { .. } => Self::new(Exit::InputOutput, error.to_string()),
         }
     }

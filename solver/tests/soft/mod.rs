@@ -202,3 +202,26 @@ fn soft_cases_and_flows_are_not_taken_for_each_other() {
     let wrong = refused(at, &["run", "bad.toml", "--fidelity", "soft"], 65);
     assert!(wrong.contains("bad.toml:23") && wrong.contains("has four"), "{wrong}");
 }
+
+/// The data of a shipped case that does not come with the program is brought to where this is called.
+#[test]
+fn data_that_is_elsewhere_is_asked_for_and_left_out_of_a_validation() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    fs::write(at.join("bar.toml"), BAR).unwrap();
+    assert!(done(at, &["list"]).contains("starfish  "));
+    assert!(done(at, &["show", "starfish"]).contains("needs starfish.msh"));
+    let said = refused(at, &["calibrate", "starfish"], 66);
+    assert!(said.contains("not in this folder") && said.contains("diff_pd_public"), "{said}");
+    let said = refused(at, &["validate", "starfish"], 65);
+    assert!(said.contains("starfish is left out"), "{said}");
+    let output = alewife(at, &["validate", "starfish", "bar.toml"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.contains("starfish is left out"), "{said}");
+
+    for name in ["starfish.msh", "data_horizontal_cyclic1.csv"] {
+        fs::write(at.join(name), "nothing").unwrap();
+    }
+    let said = refused(at, &["check", "starfish"], 65);
+    assert!(!said.contains("does not come with"), "{said}");
+}

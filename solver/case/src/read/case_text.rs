@@ -114,23 +114,29 @@ pub fn shipped_text(case: &library::Shipped) -> CaseText {
 /// Why it cannot be read.
 pub fn source_beside(file: &str, origin: &Origin) -> Result<Source, String> {
     let Source { name, directory, .. } = &*origin.source;
-    let (name, text) = match (directory, library::file_beside(name, file)) {
-        (Some(directory), _) => {
-            let path = directory.join(file);
-            let text = read_text(&path).map_err(|error| match error {
-                CaseError::NotFound { what, .. } => what,
-                CaseError::Wrong(mut all) if !all.is_empty() => all.swap_remove(0).message,
-                other => other.to_string(),
-            })?;
-            (path.display().to_string(), text.trim_start_matches('\u{feff}').to_owned())
-        }
-        (None, Some(bytes)) => {
-            let folder = name.strip_suffix("case.toml").unwrap_or_default();
-            (format!("{folder}{file}"), String::from_utf8_lossy(bytes).into_owned())
-        }
-        (None, None) => return Err(format!("`{file}` cannot be reached from here")),
-    };
-    Ok(Source { name, directory: None, text })
+    if directory.is_none()
+        && let Some(bytes) = library::file_beside(name, file)
+    {
+        let folder = name.strip_suffix("case.toml").unwrap_or_default();
+        let text = String::from_utf8_lossy(bytes).into_owned();
+        return Ok(Source { name: format!("{folder}{file}"), directory: None, text });
+    }
+    let on_disk = directory.as_ref().map(|directory| directory.join(file));
+    let path = on_disk.or_else(|| library::brought(name, file));
+    let path = path.ok_or_else(|| format!("`{file}` cannot be reached from here"))?;
+    let text = read_text(&path).map_err(|error| match error {
+        CaseError::NotFound { what, .. } => what,
+        CaseError::Wrong(mut all) if !all.is_empty() => all.swap_remove(0).message,
+        other => other.to_string(),
+    })?;
+    let text = text.trim_start_matches('\u{feff}').to_owned();
+    Ok(Source { name: path.display().to_string(), directory: None, text })
+}
+
+/// Whether two paths are those of one file.
+pub fn is_same_file(one: &str, other: &str) -> bool {
+    let [one, other] = [one, other].map(fs::canonicalize);
+    one.is_ok_and(|one| other.is_ok_and(|other| one == other))
 }
 
 /// Largest file that is read (bytes); the largest shipped case has a thousandth of it.

@@ -1,5 +1,7 @@
 //! The cases shipped with the program, embedded when it is built.
 
+use std::path::{Path, PathBuf};
+
 /// A shipped case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shipped {
@@ -44,6 +46,14 @@ pub fn file_beside(case_file: &str, name: &str) -> Option<&'static [u8]> {
     };
     let is_it = |file: &&ShippedFile| file.path.strip_prefix(folder) == Some(name);
     FILES.iter().find(is_it).map(|file| file.bytes)
+}
+
+/// Where a file of a shipped case is that does not come with it, if it is there: in the folder in which the program is
+/// called.
+pub(crate) fn brought(case_file: &str, name: &str) -> Option<PathBuf> {
+    let is_shipped = SHIPPED.iter().chain(SOFT).any(|case| case.file == case_file);
+    let path = Path::new(name);
+    (is_shipped && path.is_file()).then(|| path.to_owned())
 }
 
 /// The shipped case of that name.

@@ -9,6 +9,7 @@
 pub(crate) mod case_text;
 mod columns;
 pub(crate) mod directory_name;
+pub(crate) mod elsewhere;
 pub(crate) mod files;
 pub mod library;
 pub(crate) mod problem_keys;
@@ -22,12 +23,14 @@ mod variants;
 
 use std::sync::Arc;
 
-use self::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
+use self::case_text::{
+    CaseText, Located, is_same_file, locate, no_such_case, read_file, shipped_text, stem,
+};
 use self::columns::{midline_file, probe_line, profile_file, seed_file};
 use self::files::stroke_file::RecordedStroke;
 use self::files::{
-    calibrated_file, hole_shape, outline_file, periodic_sides, read_mesh, region_file, stroke_file,
-    surface_file,
+    calibrated_file, data_files, hole_shape, outline_file, periodic_sides, read_mesh, region_file,
+    stroke_file, surface_file,
 };
 use self::reference_rows::REFERENCES;
 use self::typing::typed;
@@ -255,6 +258,7 @@ impl UntypedCase {
     /// Types it; a sweep is read to find what is wrong in it, and left out.
     pub fn typed(mut self) -> Result<CaseFile, CaseError> {
         self.check_sweep()?;
+        data_files::resolve(&mut self.root)?;
         outline_file::resolve(&mut self.root).map_err(wrong)?;
         seed_file::resolve(&mut self.root).map_err(wrong)?;
         probe_line::resolve(&mut self.root).map_err(wrong)?;
@@ -378,11 +382,6 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
 /// What a tree has of `reduced`, before anything is laid over it.
 fn reduced_of(root: &TomlNode) -> Option<TomlNode> {
     root.get("reduced").cloned()
-}
-
-fn is_same_file(one: &str, other: &str) -> bool {
-    let [one, other] = [one, other].map(std::fs::canonicalize);
-    one.is_ok_and(|one| other.is_ok_and(|other| one == other))
 }
 
 /// Cylinders that go through a box are as long as it is.

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use super::spec::SoftCase;
 use crate::read::case_text::{Located, locate, source_beside};
 use crate::read::directory_name::directory_name;
+use crate::read::files::data_files;
 use crate::read::files::read_mesh::bytes_of;
 use crate::read::files::surface_file;
 use crate::read::{UntypedCase, collect_numbers, location, wrong};
@@ -109,12 +110,30 @@ impl SoftFile {
         directory_name(&self.name)
     }
 
+    /// A soft case as it is written, without what is in the files that it names, which need not be there. None where it
+    /// is a case of the full solver.
+    ///
+    /// # Errors
+    /// [`CaseError`]: no such case, a file that cannot be read, or what is wrong in it.
+    pub fn declared(argument: &str) -> Result<Option<Self>, CaseError> {
+        let Located { text, variant } = locate(argument)?;
+        let untyped = UntypedCase::assemble(&text, variant, &[])?;
+        if is_soft(&untyped.root) { Self::of_tree(untyped).map(Some) } else { Ok(None) }
+    }
+
     /// Types it; a sweep is read to find what is wrong in it, and left out.
-    pub(crate) fn typed(untyped: UntypedCase) -> Result<Self, CaseError> {
+    pub(crate) fn typed(mut untyped: UntypedCase) -> Result<Self, CaseError> {
+        data_files::resolve(&mut untyped.root)?;
+        surfaces(&mut untyped.root).map_err(wrong)?;
+        let mut read = Self::of_tree(untyped)?;
+        read.read_files().map_err(wrong)?;
+        Ok(read)
+    }
+
+    fn of_tree(untyped: UntypedCase) -> Result<Self, CaseError> {
         untyped.check_sweep()?;
         let (file, name) = (untyped.file().to_owned(), untyped.full_name());
-        let UntypedCase { mut root, .. } = untyped;
-        surfaces(&mut root).map_err(wrong)?;
+        let root = untyped.root;
         let case = SoftCase::deserialize(&root).map_err(|error| {
             let path = error.path();
             let key = match error.mismatch() {
@@ -134,9 +153,7 @@ impl SoftFile {
                 location: error.origin().map(Origin::location),
             }])
         })?;
-        let mut read = Self { case, name, file, record: None, mesh: None, root };
-        read.read_files().map_err(wrong)?;
-        Ok(read)
+        Ok(Self { case, name, file, record: None, mesh: None, root })
     }
 
     /// Where the value at a dotted path is written, or the table it would stand in.
@@ -169,15 +186,15 @@ impl SoftFile {
         if let Some(record) = &self.case.record {
             let origin = origin("record.file");
             let source = source_beside(&record.file, &origin)
-                .map_err(|message| missing(&origin, message, record.source.as_deref()))?;
+                .map_err(|message| missing(&origin, message))?;
             let bytes = source.text.into_bytes();
             self.record = Some(BesideFile { name: source.name, bytes });
         }
         let mesh = self.case.solid.first().and_then(|solid| solid.mesh.as_ref());
         if let Some(mesh) = mesh {
             let origin = origin("solid.0.mesh.file");
-            let bytes = bytes_of(&mesh.file, &origin)
-                .map_err(|error| missing(&origin, error.message, mesh.source.as_deref()))?;
+            let bytes =
+                bytes_of(&mesh.file, &origin).map_err(|error| missing(&origin, error.message))?;
             self.mesh = Some(BesideFile { name: mesh.file.clone(), bytes });
         }
         Ok(())
@@ -196,12 +213,9 @@ fn surfaces(root: &mut TomlNode) -> Result<(), TreeError> {
     Ok(())
 }
 
-/// A file that is not there, with where it is from if that is known.
-fn missing(origin: &Origin, message: String, source: Option<&str>) -> TreeError {
-    let help = source.map_or_else(
-        || "give the path of the file, relative to the file in which it is written".to_owned(),
-        |source| format!("this file does not come with the case, it is from {source}"),
-    );
+/// A file that is not there.
+fn missing(origin: &Origin, message: String) -> TreeError {
+    let help = "give the path of the file, relative to the file in which it is written".to_owned();
     TreeError { origin: origin.clone(), message, help }
 }
 

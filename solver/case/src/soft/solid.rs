@@ -93,9 +93,6 @@ pub struct SolidMeshFile {
     #[serde(default = "one")]
     #[cfg_attr(test, schemars(with = "Positive"))]
     pub scale: f64,
-    /// Where the file is from, for a file that does not come with the case.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub source: Option<String>,
 }
 
 fn one() -> f64 {

@@ -8,7 +8,7 @@ use super::search::{Calibration, Optimisation, Robot};
 use super::solid::SoftSolid;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, Positive};
-use crate::{Geometry, ReferenceKind, Units};
+use crate::{DataSpec, Geometry, ReferenceKind, Units};
 
 /// An elastic body without a flow: what it is made of, how it is driven and loaded, what is known of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,6 +50,9 @@ pub struct SoftCase {
     /// What stands for the robot in `alewife loop`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub robot: Option<Robot>,
+    /// Files that do not come with the case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub data: Option<DataSpec>,
     /// What runs and searches are compared with.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reference: Vec<SoftReference>,
@@ -298,9 +301,6 @@ pub struct RecordSpec {
     /// What becomes of values that are not numbers.
     #[serde(default)]
     pub gaps: RecordGaps,
-    /// Where the file is from, for a file that does not come with the case.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub source: Option<String>,
 }
 
 /// What becomes of values of a record that are not numbers.

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Body, BoundaryCondition, CalibrationSpec, ContactSpec, DomainSpec, EnvironmentSpec, FieldSpec,
-    FlowModel, FlowOptimisation, Fluid, Geometry, InitialFlow, Joint, LoadLaw, MagneticSpec,
-    MeanFlowSpec, MeshSettings, Numbers, Output, Probe, ReducedSpec, Reference, ScalarSpec, Scales,
-    Statistics, SwimmerSpec, TimeSettings, TracerSpec, Units, Variant,
+    Body, BoundaryCondition, CalibrationSpec, ContactSpec, DataSpec, DomainSpec, EnvironmentSpec,
+    FieldSpec, FlowModel, FlowOptimisation, Fluid, Geometry, InitialFlow, Joint, LoadLaw,
+    MagneticSpec, MeanFlowSpec, MeshSettings, Numbers, Output, Probe, ReducedSpec, Reference,
+    ScalarSpec, Scales, Statistics, SwimmerSpec, TimeSettings, TracerSpec, Units, Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -26,6 +26,9 @@ pub struct Case {
     /// The consistent units of all numbers: a text, as `SI`, or labels: `{ length = "um", time = "s" }`.
     #[serde(default)]
     pub units: Units,
+    /// Files that do not come with the case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub data: Option<DataSpec>,
     /// Numbers with names, for use in expressions.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub define: BTreeMap<String, f64>,

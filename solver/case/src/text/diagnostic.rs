@@ -138,6 +138,9 @@ pub enum CaseError {
     /// The file is read but wrong.
     #[error("{}", listing(.0))]
     Wrong(Vec<Diagnostic>),
+    /// A file that does not come with the case is not there.
+    #[error("{0}")]
+    Elsewhere(Diagnostic),
 }
 
 /// What helps where a file cannot be read.

@@ -29,6 +29,10 @@ pub fn show(file: &SoftFile) -> Result<Exit, Failure> {
     if !case.description.trim().is_empty() {
         let _ = writeln!(text, "\n{}", printable(case.description.trim()));
     }
+    if let Some(data) = &case.data {
+        let (files, source) = (data.files.join(", "), printable(&data.source));
+        let _ = writeln!(text, "needs {}, from {source}", printable(&files));
+    }
     for (title, is_there) in [
         ("calibration", case.calibration.is_some()),
         ("optimisation", case.optimisation.is_some()),

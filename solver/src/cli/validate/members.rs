@@ -2,7 +2,8 @@
 
 use super::super::exit::Failure;
 use super::super::read::{CheckedCase, read_for_flow};
-use crate::case::{Case, CaseFile};
+use super::super::style::complain;
+use crate::case::{Case, CaseFile, Diagnostic, data_elsewhere};
 
 /// A case or a variant that is to be validated.
 pub struct Member {
@@ -26,7 +27,7 @@ pub fn all_members(
         is_to_end()?;
         match members_of(name, only_quick) {
             Ok(found) => {
-                for name in found {
+                for name in found.into_iter().filter(|name| !is_elsewhere(name)) {
                     match read_for_flow(&name, &[]) {
                         Ok(CheckedCase { file, .. }) => members.push(Member { name, file }),
                         Err(failure) => failures.push(failure.of(&name)),
@@ -37,6 +38,13 @@ pub fn all_members(
         }
     }
     Failure::all(failures).map_or(Ok(members), Err)
+}
+
+/// Whether a case has data that does not come with it and is not there: then it is left out, which is said.
+pub fn is_elsewhere(name: &str) -> bool {
+    let Some(Diagnostic { message, help, .. }) = data_elsewhere(name) else { return false };
+    complain(&format!("{name} is left out: {message}; {help}"));
+    true
 }
 
 /// The case and its variants that have something to be compared with.

@@ -9,8 +9,7 @@ use alewife_reduced::tier::{
 use super::super::exit::{Exit, Failure};
 use super::super::optimise::search_failure;
 use super::super::read::{CheckedCase, read_and_check};
-use super::super::style::complain;
-use super::members::members_of;
+use super::members::{is_elsewhere, members_of};
 use crate::case::soft::SoftFile;
 use crate::case::soft::spec::ReferenceOf;
 use crate::case::{
@@ -42,7 +41,8 @@ pub struct Split {
 /// Finds out which of these cases are soft, and which have an optimum with references.
 ///
 /// # Errors
-/// With all that is wrong in a case, and that of `is_to_end`, which is asked before each. One whose recorded file does not come with it, and is not there, is left out.
+/// With all that is wrong in a case, and that of `is_to_end`, which is asked before each. What has data that is elsewhere
+/// is left out.
 pub fn split(
     names: &[String],
     only_quick: bool,
@@ -51,13 +51,19 @@ pub fn split(
     let mut split = Split { flows: Vec::new(), searched: Vec::new() };
     for name in names {
         is_to_end()?;
+        if is_elsewhere(name) {
+            continue;
+        }
         match SoftFile::read_if_soft(name, &[]) {
             Ok(Some(file)) if !only_quick => {
                 let variants = file.case.variant.clone();
                 split.searched.push(Searched::Soft(Box::new(file)));
                 for variant in variants {
-                    let file = SoftFile::read(&format!("{name}/{}", variant.name), &[])?;
-                    split.searched.push(Searched::Soft(Box::new(file)));
+                    let name = format!("{name}/{}", variant.name);
+                    if !is_elsewhere(&name) {
+                        let file = SoftFile::read(&name, &[])?;
+                        split.searched.push(Searched::Soft(Box::new(file)));
+                    }
                 }
             }
             Ok(Some(_)) => {}
@@ -78,8 +84,6 @@ pub fn split(
                 if of_flow.is_some_and(|other| other.to_string() == said) {
                     // It is told with all that is wrong in other cases
                     split.flows.push(name.clone());
-                } else if said.contains("does not come with the case") {
-                    complain(&format!("{name} is left out: {said}"));
                 } else {
                     return Err(Failure::from(error).of(name));
                 }
