@@ -10,7 +10,7 @@ use super::{DISC, FLUID};
 const THREADS: [&str; 3] = ["1", "2", "3"];
 
 const MESH: &str = "
-mesh = { size = 0.1, surface = 0.03 }
+mesh = { size = 0.15, surface = 0.05 }
 output.checkpoint = { wall = '0.05 s', keep = 2 }
 ";
 

@@ -50,7 +50,7 @@ geometry = 'spatial'
 fluid = { model = 'navier-stokes', viscosity = 0.1, density = 1.0 }
 domain.sphere = { center = [0.0, 0.0, 0.0], radius = 2.0 }
 boundary.wall = 'no-slip'
-mesh = { size = 1.5, surface = 0.5, growth = 0.8 }
+mesh = { size = 2.0, surface = 0.6, growth = 1.0, gap_layers = 1 }
 time.unsteady = { step = 0.05, end = 0.2 }
 [[body]]
 name = 'b'

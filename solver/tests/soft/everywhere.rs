@@ -139,7 +139,7 @@ fn the_mesh_of_a_soft_body_is_written() {
 fn runs_by_a_reduced_model_are_known_to_status_and_verify() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
-    let run = ["run", "tendon-fish", "--out", "r"];
+    let run = ["run", "tendon-fish", "--out", "r", "--set", "time.unsteady.end=0.5"];
     let output = alewife(at, &run);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(done(at, &["status", "r"]).contains("reduced model"));

@@ -9,8 +9,8 @@ use crate::command_line::{DISC, FLUID};
 
 /// A run with checkpoints all the time.
 const RUN: &str = "
-mesh = { size = 0.1, surface = 0.06 }
-time.unsteady = { step = 0.01, end = 1.2 }
+mesh = { size = 0.15, surface = 0.08 }
+time.unsteady = { step = 0.01, end = 0.8 }
 output.checkpoint = { wall = '0.02 s', keep = 2 }
 ";
 
