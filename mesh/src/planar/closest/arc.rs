@@ -205,15 +205,18 @@ pub fn apart(a: f64, b: f64, period: f64) -> f64 {
 /// Whether the outline is surely crossed by another one: shallow crossings, which only
 /// the search for pairs of points sees as a feature with a negative gap, are not looked for.
 pub fn outlines_cross(first: &Outline, second: &Outline) -> bool {
-    let mut open = pairs_within(first, second, 0.0);
-    while let Some(ArcPair { first: a, second: b }) = open.pop() {
-        if !boxes_meet(&a, &b) || least_distance(&a, &b) > 0.0 {
-            continue;
+    let mut open = Vec::new();
+    for pair in Pairs::within(first, second, 0.0).backwards() {
+        open.push(pair);
+        while let Some(ArcPair { first: a, second: b }) = open.pop() {
+            if !boxes_meet(&a, &b) || least_distance(&a, &b) > 0.0 {
+                continue;
+            }
+            if surely_cross(&a, &b) {
+                return true;
+            }
+            open.extend(split(&a, &b, first, second));
         }
-        if surely_cross(&a, &b) {
-            return true;
-        }
-        open.extend(split(&a, &b, first, second));
     }
     false
 }
@@ -231,19 +234,42 @@ pub fn split(a: &Arc, b: &Arc, first: &Outline, second: &Outline) -> Vec<ArcPair
     }
 }
 
-/// All pairs of stretches of two outlines that may come within `range` of the other outline (m).
-pub fn pairs_within(first: &Outline, second: &Outline, range: f64) -> Vec<ArcPair> {
-    let keep = |one: &Outline, other: &Outline| {
-        let mut arcs = Arc::all_of(one);
-        arcs.retain(|arc| {
-            let Circle { center, radius } = arc.circle();
-            other.least_gap(center) <= radius + range
-        });
-        arcs
-    };
-    let (near_second, near_first) = (keep(first, second), keep(second, first));
-    let pair = |first: &Arc, second: &Arc| ArcPair { first: *first, second: *second };
-    near_second.iter().flat_map(|a| near_first.iter().map(move |b| pair(a, b))).collect()
+/// Pairs of stretches of two outlines that may be within a range of each other, of which a thin body has very many.
+pub struct Pairs {
+    first: Vec<(Arc, Circle)>,
+    second: Vec<(Arc, Circle)>,
+    /// Distance up to which none is left out (m).
+    range: f64,
+}
+
+impl Pairs {
+    pub fn within(first: &Outline, second: &Outline, range: f64) -> Self {
+        /// More than the rounding of distances, over the distances and over the places themselves.
+        const ROUNDING: [f64; 2] = [1e-9, 1e-12];
+        let keep = |one: &Outline, other: &Outline| {
+            let near = Arc::all_of(one).into_iter().filter_map(|arc| {
+                let Circle { center, radius } = arc.circle();
+                let surely = radius * (1.0 + ROUNDING[0]) + center.norm() * ROUNDING[1];
+                let is_near = other.least_gap(center) <= radius + range;
+                is_near.then_some((arc, Circle { center, radius: surely }))
+            });
+            near.collect()
+        };
+        let range_with_rounding = range * (1.0 + ROUNDING[0]);
+        Self { first: keep(first, second), second: keep(second, first), range: range_with_rounding }
+    }
+
+    /// From the last one to the first, without those whose [`least_distance`] is surely beyond the range.
+    pub fn backwards(&self) -> impl Iterator<Item = ArcPair> {
+        let Self { first, second, range } = self;
+        first.iter().rev().flat_map(move |(a, around)| {
+            let near = second.iter().rev().filter(move |(_, other)| {
+                let reach = around.radius + other.radius + range;
+                (around.center - other.center).norm_squared() <= reach * reach
+            });
+            near.map(|(b, _)| ArcPair { first: *a, second: *b })
+        })
+    }
 }
 
 /// Whether the rectangles around two stretches meet.

@@ -11,8 +11,7 @@
 //! halved, down to 1/256 of a stretch between two points of a spline, within which minima are one.
 
 use super::arc::{
-    Arc, ArcPair, Circle, Range, apart, least_distance, may_be_opposite, pairs_within, split,
-    wrapped,
+    Arc, ArcPair, Circle, Pairs, Range, apart, least_distance, may_be_opposite, split, wrapped,
 };
 use super::closest_points::Closest;
 use crate::planar::vector::cross;
@@ -24,8 +23,16 @@ const STRAIGHT: f64 = 0.4;
 /// All features with |gap| below `limit` (m), the ones of shallow overlaps included, in the order
 /// of their places on the first outline.
 pub fn features(first: &Outline, second: &Outline, limit: f64) -> Vec<Closest> {
-    let mut open = pairs_within(first, second, limit);
     let mut found: Vec<Closest> = Vec::new();
+    for pair in Pairs::within(first, second, limit).backwards() {
+        found.extend(features_of(pair, first, second, limit));
+    }
+    distinct(found, [first.period(), second.period()])
+}
+
+/// Those of a pair of stretches.
+fn features_of(pair: ArcPair, first: &Outline, second: &Outline, limit: f64) -> Vec<Closest> {
+    let (mut open, mut found) = (vec![pair], Vec::new());
     while let Some(ArcPair { first: a, second: b }) = open.pop() {
         let distance = least_distance(&a, &b);
         if distance > limit || !may_be_opposite(&a, &b) || !may_be_square(&a, &b) {
@@ -44,17 +51,23 @@ pub fn features(first: &Outline, second: &Outline, limit: f64) -> Vec<Closest> {
             open.extend(smaller);
         }
     }
-    let periods = [first.period(), second.period()];
+    found
+}
+
+/// Features in the order of their places on the first outline, those that differ by rounding once.
+fn distinct(mut found: Vec<Closest>, periods: [f64; 2]) -> Vec<Closest> {
     found.sort_by(|one, other| one.parameters[0].total_cmp(&other.parameters[0]));
     let mut distinct: Vec<Closest> = Vec::new();
     for feature in found {
-        let is_known = distinct.iter().any(|known| {
-            (0..2).all(|side| {
-                let (one, other) = (feature.parameters[side], known.parameters[side]);
-                apart(one, other, periods[side]) <= 1e-6 * periods[side]
-            })
-        });
-        if !is_known {
+        let is_near = |known: &Closest, side: usize| {
+            let (one, other) = (feature.parameters[side], known.parameters[side]);
+            apart(one, other, periods[side]) <= 1e-6 * periods[side]
+        };
+        let is_among = |known: &mut dyn Iterator<Item = &Closest>| {
+            known.take_while(|known| is_near(known, 0)).any(|known| is_near(known, 1))
+        };
+        // Parallel sides have hundreds: the near ones are the last so far, and at the end of the period the first
+        if !is_among(&mut distinct.iter().rev()) && !is_among(&mut distinct.iter()) {
             distinct.push(feature);
         }
     }
@@ -191,4 +204,32 @@ fn is_feature(first: &Outline, second: &Outline, at: &Closest, limit: f64) -> bo
     at.gap > 0.0
         || (second.nearest(at.first).gap <= 1e-12 * second.reach()
             && first.nearest(at.second).gap <= 1e-12 * first.reach())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One at two parameters of curves of period 1.
+    fn at(u: f64, v: f64) -> Closest {
+        let [first, second, normal] = [Point::<2>::zeros(); 3];
+        Closest { first, second, normal, gap: 0.0, parameters: [u, v], curvatures: [0.0; 2] }
+    }
+
+    #[test]
+    fn features_are_counted_once_also_across_the_end_of_the_period() {
+        let wanted =
+            [(1e-7, 0.5), (1e-7, 0.7), (0.3, 1e-7), (0.3, 0.2), (0.6, 0.9), (1.0 - 1e-7, 0.1)];
+        let again = [
+            (1.0 - 2e-7, 0.5),
+            (1.0 - 3e-7, 0.7),
+            (0.3 + 5e-7, 1.0 - 1e-7),
+            (0.3 + 7e-7, 0.2 + 5e-7),
+            (1.0 - 5e-8, 0.1),
+        ];
+        let found: Vec<Closest> = again.iter().chain(&wanted).map(|&(u, v)| at(u, v)).collect();
+        let places = distinct(found, [1.0; 2]).iter().map(|at| at.parameters).collect::<Vec<_>>();
+        let wanted = wanted.map(|(u, v)| [u, v]);
+        assert_eq!(places, wanted);
+    }
 }

@@ -9,6 +9,13 @@ use crate::{MeshError, Point, Spline};
 /// Samples between two points of the spline, to start searches from.
 const SAMPLES_PER_SPAN: usize = 12;
 
+/// Samples that are passed over in one where all of them are too far away. A tail of some thousand samples has some
+/// hundred runs of them, as many as are looked at one by one in the runs at hand.
+const RUN: usize = 32;
+
+/// More than the rounding of a sum of distances over the distances.
+const ROUNDING: f64 = 1e-12;
+
 /// Distance from the axis over that of samples, below which a point is an end on the axis.
 const ON_AXIS: f64 = 1e-9;
 
@@ -21,6 +28,8 @@ pub struct ClosedSpline {
     cuts: [f64; 5],
     /// Where searches start.
     samples: Vec<Sample>,
+    /// Circles around each [`RUN`] of them.
+    runs: Vec<Circle>,
     /// Largest distance between neighbouring samples (m).
     spacing: f64,
     /// Whether its lower half is the mirror image of the upper one in the x axis.
@@ -69,8 +78,9 @@ impl ClosedSpline {
         }
         cuts[4] = cuts[0] + spline.period();
         let sample = |(parameter, point)| Sample { parameter, point };
+        let runs = places.chunks(RUN).map(Circle::around).collect();
         let samples = samples.into_iter().zip(places).map(sample).collect();
-        Ok(Self { spline, cuts, samples, spacing, is_about_axis: false })
+        Ok(Self { spline, cuts, samples, runs, spacing, is_about_axis: false })
     }
 
     /// One that is its own mirror image in the x axis, whose points begin with its right end: cut at its ends and half
@@ -131,14 +141,24 @@ impl ClosedSpline {
     fn search(&self, point: Point<2>) -> f64 {
         let Self { spline, samples, spacing, .. } = self;
         let n = samples.len();
-        let gaps: Vec<f64> = samples.iter().map(|sample| (sample.point - point).norm()).collect();
-        let shortest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        let gap = |i: usize| (samples[i].point - point).norm();
+        let within = |run: usize| run * RUN..n.min((run + 1) * RUN);
+        let bounds: Vec<f64> = self.runs.iter().map(|run| run.least_gap(point)).collect();
+        let nearest = (0..bounds.len()).min_by(|a, b| bounds[*a].total_cmp(&bounds[*b]));
+        let mut shortest = f64::INFINITY;
+        for run in nearest.into_iter().chain(0..bounds.len()) {
+            if bounds[run] <= shortest {
+                shortest = within(run).map(gap).fold(shortest, f64::min);
+            }
+        }
+        // Between samples the curve comes nearer than they by less than their spacing
+        let hopeless = shortest + spacing;
         let mut best = (f64::INFINITY, 0.0);
-        for i in 0..n {
+        let runs = (0..bounds.len()).filter(|run| bounds[*run] <= hopeless);
+        for i in runs.flat_map(within) {
             let (before, after) = ((i + n - 1) % n, (i + 1) % n);
-            // Between samples the curve comes nearer than they by less than their spacing
-            let is_hopeless = gaps[i] > shortest + spacing;
-            if is_hopeless || gaps[i] > gaps[before] || gaps[i] > gaps[after] {
+            let here = gap(i);
+            if here > hopeless || here > gap(before) || here > gap(after) {
                 continue;
             }
             let low = samples[before].parameter - if i == 0 { spline.period() } else { 0.0 };
@@ -150,6 +170,31 @@ impl ClosedSpline {
             }
         }
         best.1
+    }
+}
+
+/// A circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Circle {
+    center: Point<2>,
+    radius: f64,
+}
+
+impl Circle {
+    /// One that holds some points.
+    fn around(points: &[Point<2>]) -> Self {
+        let corner = |pick: fn(&Point<2>, &Point<2>) -> Point<2>| {
+            points.iter().fold(points[0], |corner, point| pick(&corner, point))
+        };
+        let center = 0.5 * (corner(Point::<2>::inf) + corner(Point::<2>::sup));
+        let radius = points.iter().map(|point| (point - center).norm()).fold(0.0, f64::max);
+        Self { center, radius }
+    }
+
+    /// A lower bound of the distance of what it holds from a point (m), with any rounding.
+    fn least_gap(&self, point: Point<2>) -> f64 {
+        let away = (point - self.center).norm();
+        away - self.radius - ROUNDING * (away + self.radius)
     }
 }
 
@@ -237,4 +282,63 @@ pub(super) fn crossing(polygon: &[Point<2>]) -> Option<Point<2>> {
         open.push(j);
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wave as thin as a tail, whose sides are near each other, in many samples.
+    fn tail() -> ClosedSpline {
+        let side = |i: i32, offset: f64| {
+            let x = f64::from(i) / 20.0;
+            [x, 0.4 * (2.0 * x).sin() + offset]
+        };
+        let there = (0..100).map(|i| side(i, -0.03));
+        let back = (0..100).rev().map(|i| side(i, 0.03));
+        let points: Vec<[f64; 2]> = there.chain(back).collect();
+        ClosedSpline::new(Arc::new(Spline::through(&points).unwrap()), "tail").unwrap()
+    }
+
+    /// The search that passes over nothing.
+    fn by_all_samples(curve: &ClosedSpline, point: Point<2>) -> f64 {
+        let ClosedSpline { spline, samples, spacing, .. } = curve;
+        let n = samples.len();
+        let gaps: Vec<f64> = samples.iter().map(|sample| (sample.point - point).norm()).collect();
+        let shortest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut best = (f64::INFINITY, 0.0);
+        for i in 0..n {
+            let (before, after) = ((i + n - 1) % n, (i + 1) % n);
+            let is_least = gaps[i] <= gaps[before] && gaps[i] <= gaps[after];
+            if !is_least || gaps[i] > shortest + spacing {
+                continue;
+            }
+            let low = samples[before].parameter - if i == 0 { spline.period() } else { 0.0 };
+            let high = samples[after].parameter + if after == 0 { spline.period() } else { 0.0 };
+            let s = foot_on_spline(spline, low, high, samples[i].parameter, point);
+            let gap = (spline.evaluate(s)[0] - point).norm();
+            if gap < best.0 {
+                best = (gap, s);
+            }
+        }
+        best.1
+    }
+
+    #[test]
+    fn samples_that_are_passed_over_change_no_bit() {
+        let curve = tail();
+        assert_eq!(curve.runs.len(), 75);
+        let places = |n: u32, low: f64, high: f64| {
+            (0..=n).map(move |i| low + (high - low) * f64::from(i) / f64::from(n))
+        };
+        let around = places(40, -1.0, 6.0).flat_map(|x| places(24, -1.2, 1.2).map(move |y| [x, y]));
+        // On the curve, and in the middle between its sides, where both are as near
+        let on = curve.samples.iter().step_by(7).map(|sample| sample.point.into());
+        let between = places(100, 0.0, 4.95).map(|x| [x, 0.4 * (2.0 * x).sin()]);
+        for place in around.chain(on).chain(between).chain([[1e9, -1e9], [f64::NAN, 0.0]]) {
+            let point = Point::<2>::from(place);
+            let (found, wanted) = (curve.search(point), by_all_samples(&curve, point));
+            assert_eq!(found.to_bits(), wanted.to_bits(), "{place:?}: {found} {wanted}");
+        }
+    }
 }
