@@ -156,13 +156,13 @@ fn check_random_bodies(seeds: std::ops::Range<u32>) {
 
 #[test]
 fn random_bodies_in_periodic_boxes_give_good_meshes() {
-    check_random_bodies(0..6);
+    check_random_bodies(0..3);
 }
 
 #[test]
 #[ignore = "long: two minutes; small: random_bodies_in_periodic_boxes_give_good_meshes"]
 fn many_random_bodies_in_periodic_boxes_give_good_meshes() {
-    check_random_bodies(6..64);
+    check_random_bodies(3..64);
 }
 
 fn check_crowds(seeds: std::ops::Range<u64>) {
