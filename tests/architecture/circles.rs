@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::sources::{CRATES, sources, syntax};
+use super::sources::{CRATES, sources};
+use super::syntax::{Parsed, parsed};
 
 /// Rooms of the crate of cases, and those each may use. Reading a case types what it says of a sweep, whose
 /// cases are read in turn.
@@ -32,40 +33,10 @@ struct Crate {
     named: BTreeMap<Module, Vec<Vec<String>>>,
 }
 
-/// The paths of a `use`, flat, with the name each gets.
-fn flatten(tree: &syn::UseTree, before: &[String], all: &mut Vec<(Vec<String>, String)>) {
-    let with = |ident: &syn::Ident| [before, &[ident.to_string()]].concat();
-    match tree {
-        syn::UseTree::Path(path) => flatten(&path.tree, &with(&path.ident), all),
-        syn::UseTree::Name(name) => all.push((with(&name.ident), name.ident.to_string())),
-        syn::UseTree::Rename(rename) => all.push((with(&rename.ident), rename.rename.to_string())),
-        syn::UseTree::Group(group) => {
-            group.items.iter().for_each(|item| flatten(item, before, all));
-        }
-        syn::UseTree::Glob(_) => all.push((before.to_vec(), "*".to_owned())),
-    }
-}
-
-/// Paths named in expressions and types, such as `super::ordering::order`.
-#[derive(Default)]
-struct Paths(Vec<Vec<String>>);
-
-impl<'ast> syn::visit::Visit<'ast> for Paths {
-    /// Who may use an item is no use of that module.
-    fn visit_visibility(&mut self, _visibility: &'ast syn::Visibility) {}
-
-    fn visit_path(&mut self, path: &'ast syn::Path) {
-        if path.segments.len() > 1 {
-            self.0.push(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
-        }
-        syn::visit::visit_path(self, path);
-    }
-}
-
 impl Crate {
     fn read(folder: &str) -> Self {
         let mut all = Self::default();
-        for (file, text) in sources(folder) {
+        for file in sources(folder).into_keys() {
             // A program is a crate of its own beside its library
             if file.ends_with("src/main.rs") {
                 continue;
@@ -76,31 +47,12 @@ impl Crate {
             if module.last().is_some_and(|last| ["mod", "lib"].contains(&last.as_str())) {
                 module.pop();
             }
-            all.add(module, &file, &syntax(&file, &text));
+            let Parsed { passed_on, named, .. } = parsed(&file);
+            all.files.insert(module.clone(), file);
+            all.passed_on.insert(module.clone(), passed_on.clone());
+            all.named.insert(module, named.clone());
         }
         all
-    }
-
-    fn add(&mut self, module: Module, file: &str, tree: &syn::File) {
-        let (mut passed_on, mut paths) = (BTreeMap::new(), Paths::default());
-        for item in &tree.items {
-            let syn::Item::Use(item) = item else {
-                syn::visit::Visit::visit_item(&mut paths, item);
-                continue;
-            };
-            let mut all = Vec::new();
-            flatten(&item.tree, &[], &mut all);
-            let is_private = matches!(item.vis, syn::Visibility::Inherited);
-            for (path, name) in all {
-                if is_private {
-                    paths.0.push(path.clone());
-                }
-                passed_on.insert(name, path);
-            }
-        }
-        self.files.insert(module.clone(), file.to_owned());
-        self.passed_on.insert(module.clone(), passed_on);
-        self.named.insert(module, paths.0);
     }
 
     /// The module that defines what a path names in a module; none for other crates.

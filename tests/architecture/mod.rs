@@ -5,6 +5,7 @@ mod limits;
 mod long;
 mod orphans;
 mod sources;
+mod syntax;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

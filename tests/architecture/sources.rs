@@ -1,4 +1,4 @@
-//! The source files of all crates, as text and as syntax trees.
+//! The source files of all crates.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -53,20 +53,4 @@ pub const TESTS: [&str; 7] = [
 /// The source files of all crates, by path relative to the root.
 pub fn all_sources() -> impl Iterator<Item = (String, String)> {
     CRATES.into_iter().flat_map(sources)
-}
-
-/// A file as a syntax tree, without its tests.
-pub fn syntax(file: &str, text: &str) -> syn::File {
-    let mut tree = syn::parse_file(text).unwrap_or_else(|error| panic!("{file}: {error}"));
-    tree.items.retain(|item| !is_test(item));
-    tree
-}
-
-/// Whether an item is compiled for tests only.
-fn is_test(item: &syn::Item) -> bool {
-    let syn::Item::Mod(module) = item else { return false };
-    module.attrs.iter().any(|attribute| {
-        attribute.path().is_ident("cfg")
-            && attribute.parse_args::<syn::Ident>().is_ok_and(|only| only == "test")
-    })
 }
