@@ -78,7 +78,7 @@ fn bdf2_is_second_order_in_time_with_extrapolated_convection_and_with_newton() {
 #[test]
 fn bdf2_is_second_order_in_time_in_space() {
     let exact = EthierSteinman { viscosity: 1.0 };
-    let mesh = BoxOfTetrahedra { cubes: 3, has_body: false }.mesh();
+    let mesh = BoxOfTetrahedra { cubes: 2, has_body: false }.mesh();
     let flow = Decay { mesh, exact, viscosity: exact.viscosity, end: 1.0 };
     for choice in [Convection::Extrapolated, Convection::Newton] {
         let study = flow.study(&[10, 20, 40], true, choice);

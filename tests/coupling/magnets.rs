@@ -23,7 +23,7 @@ fn disc(rate: f64, time: &str, more: &str) -> RunSummary {
         fluid = {{ model = "stokes", viscosity = 1.0 }}
         domain.disc.radius = {CIRCLE}
         boundary.wall = "no-slip"
-        mesh = {{ size = 0.25, surface = 0.15, gap_layers = 6 }}
+        mesh = {{ size = 0.35, surface = 0.2, gap_layers = 4 }}
         time.unsteady = {{ {time} }}
         field.magnetic.rotating = {{ strength = 0.5, frequency = {frequency:e}{more} }}
         [[body]]
@@ -71,7 +71,7 @@ fn mean_rate(rate: f64, step: f64, scheme: &str) -> f64 {
 fn beyond_its_step_out_rate_a_disc_slips() {
     for (rate, scheme) in [(1.25f64, ""), (2.0, ""), (1.25, ", scheme = \"rk3\"")] {
         let exact = rate - (rate * rate - 1.0).sqrt();
-        let step = if scheme.is_empty() { 0.02 } else { 0.05 };
+        let step = if scheme.is_empty() { 0.025 } else { 0.08 };
         let off = mean_rate(rate, step, scheme) / exact - 1.0;
         figure!(off.abs(), "mean rate at {rate}{scheme}");
         assert!(off.abs() < 2e-3, "{rate}{scheme}: {off:e}");

@@ -52,7 +52,7 @@ fn moved(model: &Model) -> [f64; 3] {
 fn rods_of_any_stiffness_take_whole_steps() {
     const TIME: &str = "step = 0.1, end = 0.2";
     let moved = "motion.y.imposed.sine = { amplitude = 0.1, period = 1.0 }";
-    for bending in [1.0, 1e3, 1e6] {
+    for bending in [1.0, 1e6] {
         for (hold, head) in [
             ("hinged", PULLED),
             ("clamped", moved),

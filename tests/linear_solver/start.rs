@@ -9,6 +9,9 @@ use tests::{steady_with, workspace};
 /// Relative residual that every system has to reach.
 const RESIDUAL: f64 = 1e-12;
 
+/// Half as many unknowns, and fewer.
+const COARSE: &[&str] = &["mesh.scale=1.5"];
+
 /// Residual and refinements of the Stokes flow that every run of a case begins with.
 ///
 /// # Panics
@@ -29,7 +32,9 @@ where
 /// Which shipped cases are solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Which {
-    /// Those in the plane, by themselves.
+    /// Those in the plane, by themselves, on coarser meshes.
+    Coarse,
+    /// The same on their own meshes.
     Planar,
     /// The first and the last of their variants.
     PlanarVariants,
@@ -51,7 +56,7 @@ impl Which {
         variants.dedup();
         let variants = variants.into_iter().map(|variant| format!("{name}/{variant}"));
         match self {
-            Self::Planar => vec![name.clone()],
+            Self::Coarse | Self::Planar => vec![name.clone()],
             _ => variants.collect(),
         }
     }
@@ -72,7 +77,9 @@ fn assert_solved(which: Which, more_than: usize) {
     let wrong: Vec<String> = members
         .par_iter()
         .filter_map(|name| {
-            let model = Case::read(name, &[]).expect("shipped cases are valid").model;
+            let settings = if which == Which::Coarse { COARSE } else { &[] };
+            let settings: Vec<String> = settings.iter().map(|&key| key.to_owned()).collect();
+            let model = Case::read(name, &settings).expect("shipped cases are valid").model;
             // The rates of rods follow from a step, they are free in a steady flow
             if model.bodies.iter().any(|body| body.rod.is_some()) {
                 return None;
@@ -87,20 +94,26 @@ fn assert_solved(which: Which, more_than: usize) {
 }
 
 #[test]
+fn shipped_cases_on_coarser_meshes_are_solved_to_rounding() {
+    assert_solved(Which::Coarse, 25);
+}
+
+#[test]
+#[ignore = "long: 15 s; small: shipped_cases_on_coarser_meshes_are_solved_to_rounding"]
 fn shipped_cases_in_the_plane_are_solved_to_rounding() {
     assert_solved(Which::Planar, 25);
 }
 
 /// Other numbers of the same cases, on meshes that are much the same.
 #[test]
-#[ignore = "long: 10 s; small: shipped_cases_in_the_plane_are_solved_to_rounding"]
+#[ignore = "long: 10 s; small: shipped_cases_on_coarser_meshes_are_solved_to_rounding"]
 fn variants_of_cases_in_the_plane_are_solved_to_rounding() {
     assert_solved(Which::PlanarVariants, 25);
 }
 
 /// The quick validation runs them to their ends every day.
 #[test]
-#[ignore = "long: 40 s; small: shipped_cases_in_the_plane_are_solved_to_rounding"]
+#[ignore = "long: 40 s; small: shipped_cases_on_coarser_meshes_are_solved_to_rounding"]
 fn shipped_cases_in_space_are_solved() {
     assert_solved(Which::Spatial, 5);
 }

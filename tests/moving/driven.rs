@@ -96,6 +96,7 @@ fn a_driven_body_ends_with_the_same_bits_when_it_resumes() {
 #[test]
 fn spheres_are_driven_on_the_axis_and_in_space() {
     let sphere = |geometry: &str, domain: &str, center: &str, motion: &str| {
+        let surface = if geometry == "spatial" { 0.9 } else { 0.6 };
         case(&format!(
             r#"
             title = "a driven sphere"
@@ -103,7 +104,7 @@ fn spheres_are_driven_on_the_axis_and_in_space() {
             fluid = {{ model = "stokes", viscosity = 1.0 }}
             domain.{domain}.radius = 4.0
             boundary.wall = "no-slip"
-            mesh = {{ size = 2.0, surface = 0.6 }}
+            mesh = {{ size = 2.0, surface = {surface}, gap_layers = 1 }}
             time.unsteady = {{ step = 0.05, end = 0.5 }}
             [[body]]
             name = "s"

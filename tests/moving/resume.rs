@@ -78,7 +78,7 @@ fn a_flow_solved_with_earlier_factors_ends_with_the_same_bits() {
         domain.box = { min = [-2.0, -2.0], max = [6.0, 2.2] }
         boundary = { left = { velocity = { value = [1.0, 0.0] } }, right = "do-nothing", bottom = "symmetry", top = "symmetry" }
         mesh = { size = 0.4, surface = 0.08 }
-        time.unsteady = { step = 0.05, end = 3.0 }
+        time.unsteady = { step = 0.05, end = 2.0 }
         [[body]]
         name = "disc"
         shape = { disc = { radius = 0.5 } }
@@ -86,7 +86,7 @@ fn a_flow_solved_with_earlier_factors_ends_with_the_same_bits() {
         motion = "held"
         "#,
     );
-    ends_with_the_same_bits::<2>(&model, &[[1, 2], [17, 29], [40, 59]]);
+    ends_with_the_same_bits::<2>(&model, &[[1, 2], [17, 29]]);
 }
 
 #[test]

@@ -20,7 +20,7 @@ fn cell(time: &str, by: [f64; 2], more: &str) -> String {
         geometry = "planar"
         fluid = {{ model = "stokes", viscosity = 1.0 }}
         domain.box = {{ min = [0.0, 0.0], max = [{LENGTH}, {LENGTH}] }}
-        mesh = {{ size = 0.4, surface = 0.12, growth = 0.25, gap_layers = 2.5 }}
+        mesh = {{ size = 0.5, surface = 0.18, growth = 0.35, gap_layers = 2 }}
         time.{time}
         {PERIODIC_BOX}
         {more}

@@ -301,7 +301,7 @@ fn a_load_in_the_frame_of_the_body_is_turned_with_it() {
                 fluid = {{ model = "stokes", viscosity = 1.0 }}
                 domain.sphere.radius = 3.0
                 boundary.wall = "no-slip"
-                mesh = {{ size = 1.5, surface = 0.6, gap_layers = 1 }}
+                mesh = {{ size = 2.0, surface = 0.8, growth = 1.0, gap_layers = 1 }}
                 time.steady = {{}}
                 [[body]]
                 name = "body"

@@ -63,7 +63,8 @@ fn three_links(scheme: &str, steps: u32, joint: &str) -> Model {
 fn three_spheres(scheme: &str, steps: u32) -> Model {
     let step = format!("time.unsteady.step={}", 4.0 / f64::from(steps));
     let scheme = format!("time.unsteady.scheme={scheme}");
-    Case::read("three-sphere", &[step, scheme]).expect("it is shipped").model
+    let coarse = "mesh.scale=2.0".to_owned();
+    Case::read("three-sphere", &[step, scheme, coarse]).expect("it is shipped").model
 }
 
 fn place(outcome: &RunSummary) -> [f64; 2] {

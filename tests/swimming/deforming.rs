@@ -136,7 +136,7 @@ fn a_new_mesh_in_the_middle_of_a_beat_changes_little() {
 fn the_energy_of_a_beat_is_accounted_for() {
     let at = |step: f64| {
         let time = format!("step = {step}, end = 1.0");
-        let outcome = run(&case(&fish(BEAT, &time, "size = 0.15, surface = 0.04")));
+        let outcome = run(&case(&fish(BEAT, &time, "size = 0.2, surface = 0.06")));
         let defect = last(&outcome, "flow.energy_defect");
         figure!(defect, "step {step}: energy defect");
         defect

@@ -259,14 +259,14 @@ fn gaits_without_inertia_are_the_same_turned_shifted_and_mirrored() {
     }
 }
 
-/// Three steps of the Navier-Stokes equations. The frame that travels sees walls, fluid and swimmer
+/// Two steps of the Navier-Stokes equations. The frame that travels sees walls, fluid and swimmer
 /// go by: velocities differ by its own, and forces and their work on the shape not at all.
 #[test]
 fn gaits_with_inertia_are_the_same_turned_mirrored_and_in_a_frame_that_travels() {
     for swimmer in &SWIMMERS {
         let at = |moved: &Moved, stream: Point<2>| {
             let mut swim = swim(swimmer, "navier-stokes", moved, Some(stream));
-            for _ in 0..3 {
+            for _ in 0..2 {
                 swim.step(0.02);
             }
             // Work that is done on the fluid as a whole belongs to the frame.

@@ -11,7 +11,7 @@ fn swims(gait: &str) -> Vec<f64> {
         fluid = {{ model = "navier-stokes", viscosity = 0.01, density = 1.0 }}
         domain.box = {{ min = [-1.2, -0.8], max = [1.2, 0.8] }}
         boundary = {{ left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }}
-        mesh = {{ size = 0.3, surface = 0.02 }}
+        mesh = {{ size = 0.4, surface = 0.04 }}
         time.unsteady = {{ step = 0.02, end = 0.1 }}
         define = {{ K = 3.5, amplitude = 0.08 }}
         [[body]]

@@ -250,7 +250,7 @@ fn loads_at_a_tip_bend_a_cantilever_as_far_as_the_elastica() {
             "rod = {{ bending = 1.0, elements = 12, load.tip = {{ force = [{{ constant = 0.0 }}, \
              {{ constant = {force} }}], moment.constant = {moment} }} }}\nattached.hold = \"clamped\""
         );
-        let model = boxed(fluid, "step = 0.4, end = 14.0", &slender(&body));
+        let model = boxed(fluid, "step = 0.7, end = 14.0", &slender(&body));
         let length = model.bodies[0].shape.profile().expect("it is slender").length();
         let summary = run(&model);
         let ends = |axis: &str| {
