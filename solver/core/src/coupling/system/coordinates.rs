@@ -85,12 +85,8 @@ impl<const D: usize> FluidSystem<D> {
         let derivatives = equations.reduced(self.rate_response.tangents());
         let inverse = self.linear.inverse_of(unknowns, timing)?;
         let inverse = DMatrix::from_column_slice(unknowns.len(), unknowns.len(), &inverse);
-        let source = at.problem.is_enclosed().then(|| {
-            let mut answer = at.constraints.restrict(&self.unit_source());
-            self.linear.substitute(&mut answer, timing);
-            answer
-        });
-        self.rate_response.factorised = Some(Factorised { inverse, derivatives, source });
+        let enclosed = self.substituted_answers(at.constraints, timing);
+        self.rate_response.factorised = Some(Factorised { inverse, derivatives, enclosed });
         Ok(())
     }
 }

@@ -37,7 +37,7 @@ use super::loads::{
     ResidualOnMesh, SidesAt, SurfaceLoads, SurfaceStress, side_loads, surface_loads,
 };
 use super::mean_flow::{CellIntegrals, MeanFlowResponse};
-use super::pressure_mean::PressureMean;
+use super::pressure_mean::{FluxWeight, PressureMean, flux_weights};
 use super::problem::{MeanFlowAt, Problem};
 use super::rigid_equations::RigidBodyEquations;
 use super::shapes::BodyShapes;
@@ -102,6 +102,8 @@ pub struct FluidSystem<const D: usize> {
     kept_memory: Option<SolverMemory>,
     numbering: Numbering,
     pressure: PressureMean,
+    /// Of nodes on bodies with coordinates in an enclosed fluid.
+    flux_weights: Vec<FluxWeight<D>>,
     /// The common velocity of fluid and bodies, where nothing holds them.
     pub(super) nullspace: Option<TranslationNullspace<D>>,
     /// Integrals over a cell with a mean flow.
@@ -170,6 +172,7 @@ impl<const D: usize> FluidSystem<D> {
             Assembly::new(mesh, layout, &constraints, problem.metric, &problem.open_sides(), frame);
         look()?;
         let pressure = PressureMean::new(mesh, assembly.tables());
+        let flux_weights = flux_weights(problem, mesh, assembly.tables(), &rest_places);
         let nullspace = TranslationNullspace::new(problem, mesh, assembly.tables());
         let driven = problem.mean_flow.as_ref();
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
@@ -191,6 +194,7 @@ impl<const D: usize> FluidSystem<D> {
             assembly,
             linear,
             pressure,
+            flux_weights,
             nullspace,
             cell,
             response: MeanFlowResponse::default(),
@@ -311,7 +315,9 @@ impl<const D: usize> FluidSystem<D> {
     /// Takes note that the mesh has moved.
     pub fn move_to(&mut self, problem: &Problem<D>, mesh: &Mesh<D>) {
         if problem.is_enclosed() {
-            self.pressure = PressureMean::new(mesh, self.assembly.tables());
+            let tables = self.assembly.tables();
+            self.pressure = PressureMean::new(mesh, tables);
+            self.flux_weights = flux_weights(problem, mesh, tables, &self.rest_places);
         }
         self.nullspace = TranslationNullspace::new(problem, mesh, self.assembly.tables());
         self.linear.forget_weights();
@@ -348,7 +354,7 @@ impl<const D: usize> FluidSystem<D> {
         }
         free.iter_mut().zip(&step).for_each(|(value, correction)| *value += correction);
         self.follow_coordinates(at, &step, &mut free, timing);
-        self.balance_net_flux(at, solution, &mut free, timing)?;
+        self.balance_enclosed(at, solution, &mut free, timing)?;
         self.next_solution(at, solution, free, timing)
     }
 
@@ -384,13 +390,6 @@ impl<const D: usize> FluidSystem<D> {
         Solution {
             pressure_gradient: from.pressure_gradient,
             ..Solution::from_raw(&self.layout, self.modes, &raw)
-        }
-    }
-
-    /// Shifts the pressure of an enclosed flow to zero mean.
-    pub fn center_pressure(&self, problem: &Problem<D>, solution: &mut Solution<D>) {
-        if problem.is_enclosed() {
-            self.pressure.center(&mut solution.pressure);
         }
     }
 }

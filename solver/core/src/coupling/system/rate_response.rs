@@ -43,8 +43,18 @@ pub(super) struct Factorised {
     /// The derivatives that are in them, by these unknowns: where bodies turn on which others are fixed, the same
     /// derivatives are others by the unknowns of a later system.
     pub derivatives: DMatrix<f64>,
-    /// The flow that a source makes which is spread over an enclosed fluid.
-    pub source: Option<Vec<f64>>,
+    /// How an enclosed fluid answers.
+    pub enclosed: Option<EnclosedAnswers>,
+}
+
+/// How free unknowns answer to what an enclosed fluid does to bodies with coordinates.
+#[derive(Debug)]
+pub(super) struct EnclosedAnswers {
+    /// To a source of one that is spread over the fluid.
+    pub source: Vec<f64>,
+    /// To a level of the pressure of one that is taken off; none where each answer takes iterations: the residual of the next
+    /// system then has the level that this one has come to.
+    pub level: Option<Vec<f64>>,
 }
 
 impl RateResponse {
@@ -66,9 +76,16 @@ impl RateResponse {
         self.factorised.is_some()
     }
 
-    /// The flow of a source, if the factors are known that it was found with.
-    pub(super) fn source(&self) -> Option<&[f64]> {
-        self.factorised.as_ref()?.source.as_deref()
+    /// How an enclosed fluid answers, if the factors are known that this was found with; to be kept again.
+    pub(super) fn take_enclosed(&mut self) -> Option<EnclosedAnswers> {
+        self.factorised.as_mut()?.enclosed.take()
+    }
+
+    /// Keeps how an enclosed fluid answers, as long as the factors.
+    pub(super) fn keep_enclosed(&mut self, answers: EnclosedAnswers) {
+        if let Some(factorised) = &mut self.factorised {
+            factorised.enclosed = Some(answers);
+        }
     }
 }
 

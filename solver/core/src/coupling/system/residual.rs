@@ -37,6 +37,7 @@ impl<const D: usize> FluidSystem<D> {
         let mut raw = fluid.to_vec();
         if at.problem.is_enclosed() {
             self.pressure.make_compatible(&mut raw[self.layout.pressures()]);
+            self.take_off_level(solution, &mut raw);
         }
         let row = |body: usize, position: usize| self.layout.rigid(body, position);
         at.bodies.add_residual(&solution.twists, self.modes, row, &mut raw);
