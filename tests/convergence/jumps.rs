@@ -1,9 +1,11 @@
-//! Adaptive steps past velocities, slip and loads that jump in time, and out of rest.
+//! Adaptive steps past velocities, slip and loads that jump in time, and out of rest; fixed steps past rates that jump.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use alewife_core::case::Model;
-use alewife_core::run::{RunSummary, simulate};
+use alewife_core::run::{Dimension, Observer, RunSummary, Snapshot, Solve, build_mesh, simulate};
 use tests::cases::{PERIODIC_CHANNEL, case, column, run};
 use tests::{resumed, stopped, stopped_within_a_step};
 
@@ -224,4 +226,47 @@ fn a_pulse_out_of_rest_is_found_and_costs_few_steps() {
         assert!((found / way - 1.0).abs() < 1e-2, "{driven}: {found} for {way}");
         assert!(outcome.steps < 300, "{driven}: {} steps", outcome.steps);
     }
+}
+
+/// Counts linear systems.
+struct Systems(Arc<AtomicUsize>);
+
+impl Observer<2> for Systems {
+    fn on_step(&mut self, snapshot: &Snapshot<'_, 2>) -> std::io::Result<()> {
+        self.0.fetch_add(snapshot.iterations, Ordering::Relaxed);
+        Ok(())
+    }
+}
+
+/// A disc that turns back at the end of a step and within another one: as many linear systems as one step and the number of all
+/// say, short ones at the start and behind each turn included. Where it turns its velocity is that behind the turn, and the piece
+/// that ends there has a system more.
+#[test]
+fn steps_are_as_many_as_their_number_ahead_says() {
+    const TURNS: usize = 2;
+    let model = case(
+        r#"
+        title = "a disc that goes to and fro"
+        geometry = "planar"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.box = { min = [-1.0, -1.0], max = [1.0, 1.0] }
+        boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+        mesh = { size = 0.5, surface = 0.2, growth = 0.6, gap_layers = 1 }
+        time.unsteady = { step = 0.1, end = 1.0 }
+        [[body]]
+        name = "disc"
+        shape.disc.radius = 0.3
+        center = [0.0, 0.0]
+        motion.x.imposed.legs = { period = 0.75, knots = [[0.0, 0.0], [0.3, 0.05]] }
+        "#,
+    );
+    let mesh = build_mesh::<2>(&model).expect("it is meshed");
+    let timed = Dimension::<2>::time_step(&model, mesh).expect("a step is made");
+    let of_step = timed.step.expect("it moves").expect("it is made").systems;
+    let pieces = timed.pieces.expect("its steps are fixed");
+    assert_eq!([of_step, pieces], [1, 33]);
+    let made = Arc::new(AtomicUsize::new(0));
+    let mut observers: Vec<Box<dyn Observer<2>>> = vec![Box::new(Systems(Arc::clone(&made)))];
+    simulate(&model, &mut observers).expect("the case runs");
+    assert_eq!(made.load(Ordering::Relaxed), pieces * of_step + TURNS);
 }

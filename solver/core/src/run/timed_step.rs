@@ -6,6 +6,7 @@ use alewife_mesh::{Mesh, Point};
 
 use super::build::Scalars;
 use super::case_mesh::{CaseMesh, Dimension};
+use super::control::n_pieces;
 use super::error::RunError;
 use super::prepare::simulation_on;
 use super::resume::SavedState;
@@ -42,6 +43,8 @@ pub struct TimedStep<const D: usize> {
     pub start: Effort,
     /// A step of the size `step`, or why none was made; none of a steady solution.
     pub step: Option<Result<Effort, StepError>>,
+    /// Such steps of a run of fixed steps: the pieces that its first step and those behind jumps of rates are made in count each.
+    pub pieces: Option<usize>,
     /// Where it led to.
     pub mesh: Mesh<D>,
     /// Velocity at the P2 nodes (m/s).
@@ -106,10 +109,20 @@ where
             (Some(step), Some(SavedState::of(&model.case, &simulation, none.0, none.1)?))
         }
     };
+    let pieces = pieces(&simulation, &model.case.time);
     let Simulation { state, work, .. } = simulation;
     let (velocity, pressure) = (state.now.velocity.clone(), state.now.pressure.clone());
     let unknowns = work.system.n_unknowns;
-    Ok(TimedStep { unknowns, start, step, mesh: state.mesh.clone(), velocity, pressure, saved })
+    let mesh = state.mesh.clone();
+    Ok(TimedStep { unknowns, start, step, pieces, mesh, velocity, pressure, saved })
+}
+
+/// The pieces of all fixed steps.
+fn pieces<const D: usize>(simulation: &Simulation<D>, time: &TimeSettings) -> Option<usize> {
+    let TimeSettings::Unsteady(settings) = time else { return None };
+    let jumps = simulation.problem.rate_discontinuities.as_ref();
+    let jumps = jumps.map_or_else(Vec::new, |jumps| jumps(0.0, settings.end));
+    settings.adaptive.is_none().then(|| n_pieces(settings, &jumps))
 }
 
 /// Makes a step as those in the midst of a run are: of second order, if it is, after one of half

@@ -43,7 +43,7 @@ where
             lines.push(Line { name: "CPU time", text: steady(model, &timed.start, seconds) });
         }
         TimeSettings::Unsteady(settings) => {
-            lines.push(Line { name: "steps", text: steps(settings) });
+            lines.push(Line { name: "steps", text: steps(settings, timed.pieces) });
             lines.extend(unsteady(model, settings, timed, seconds));
         }
     }
@@ -85,8 +85,18 @@ fn steady(model: &Model, start: &Effort, mesh: f64) -> String {
 }
 
 /// How many steps there are.
-fn steps(time: &Unsteady) -> String {
-    let Some(adaptive) = &time.adaptive else { return count(time.n_steps() as f64) };
+fn steps(time: &Unsteady, pieces: Option<usize>) -> String {
+    let Some(adaptive) = &time.adaptive else {
+        let n_steps = time.n_steps();
+        let more = pieces.map_or(0, |pieces| pieces.saturating_sub(n_steps));
+        let steps = count(n_steps as f64);
+        if more == 0 {
+            return steps;
+        }
+        let ones = if more == 1 { "one" } else { "ones" };
+        let more = count(more as f64);
+        return format!("{steps}, and {more} more short {ones}, in which motions begin or jump");
+    };
     let largest = adaptive.largest.unwrap_or(time.end / 10.0);
     format!(
         "chosen by their errors: {} at least, and {} if all were of the first size, {}",
@@ -124,8 +134,8 @@ fn unsteady<const D: usize>(
         duration_of_step(step.cpu),
         duration_of_step(step.wall)
     );
-    if settings.adaptive.is_none() {
-        let all = mesh + timed.start.cpu + settings.n_steps() as f64 * step.cpu;
+    if let Some(pieces) = timed.pieces {
+        let all = mesh + timed.start.cpu + pieces as f64 * step.cpu;
         line = format!("{}: {line}", duration(all));
     }
     let mut lines = vec![Line { name: "CPU time", text: line }];

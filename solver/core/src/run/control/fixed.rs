@@ -119,8 +119,7 @@ impl<const D: usize> Run<'_, D> {
     fn longest_piece(&self, settings: &Unsteady) -> f64 {
         let Simulation { state, control, .. } = &self.simulation;
         let contact = control.contact_step.unwrap_or(f64::INFINITY);
-        let is_bound = settings.scheme == Scheme::Bdf2 && state.last_step > 0.0;
-        if is_bound { contact.min(LARGEST_GROWTH * state.last_step) } else { contact }
+        contact.min(longest_piece(settings, state.last_step))
     }
 
     /// The pieces of a step to a time (s), the next one last: what a run that resumes has left of them.
@@ -135,6 +134,12 @@ impl<const D: usize> Run<'_, D> {
     }
 }
 
+/// The longest piece that may follow one of a size (s), or none where that is zero.
+pub(super) fn longest_piece(settings: &Unsteady, last: f64) -> f64 {
+    let is_bound = settings.scheme == Scheme::Bdf2 && last > 0.0;
+    if is_bound { LARGEST_GROWTH * last } else { f64::INFINITY }
+}
+
 /// The smallest part of a step that is tried after an error.
 fn smallest_part(error: &StepError) -> f64 {
     match error {
@@ -144,7 +149,7 @@ fn smallest_part(error: &StepError) -> f64 {
 }
 
 /// The halves of a piece, the first one last.
-fn halves(piece: Piece) -> [Piece; 2] {
+pub(super) fn halves(piece: Piece) -> [Piece; 2] {
     let size = 0.5 * piece.size;
     [Piece { size, is_restart: false }, Piece { size, ..piece }]
 }

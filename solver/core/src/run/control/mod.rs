@@ -4,8 +4,10 @@ mod adaptive;
 mod ahead;
 mod corners;
 mod fixed;
+mod planned;
 mod start;
 
+pub(super) use self::planned::n_pieces;
 pub(super) use self::start::first_piece;
 use super::error::RunError;
 use super::run::Run;

@@ -17,10 +17,21 @@ pub(super) fn pieces<const D: usize>(
     let state = &simulation.state;
     let near = NEAR * settings.step;
     let jumps = simulation.problem.rate_discontinuities.as_ref();
-    let mut at = state.time;
-    let mut ends = jumps.map_or_else(Vec::new, |jumps| jumps(state.time + near, target - near));
+    let within = jumps.map_or_else(Vec::new, |jumps| jumps(state.time + near, target - near));
+    let is_start = state.last_step == 0.0 || simulation.is_at_discontinuity(near);
+    cut(settings, within, [state.time, target], is_start)
+}
+
+/// The pieces of a step from one time to another (s), cut where rates jump, the next one last; `is_start` where nothing is
+/// before that counts.
+pub(super) fn cut(
+    settings: &Unsteady,
+    jumps: Vec<f64>,
+    [from, target]: [f64; 2],
+    mut is_start: bool,
+) -> Vec<Piece> {
+    let (mut at, mut ends) = (from, jumps);
     ends.push(target);
-    let mut is_start = state.last_step == 0.0 || simulation.is_at_discontinuity(near);
     let mut pieces = Vec::new();
     for end in ends {
         let sizes = start_pieces(settings.scheme, is_start, end - at);
