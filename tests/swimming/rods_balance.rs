@@ -269,3 +269,21 @@ fn loads_at_a_tip_bend_a_cantilever_as_far_as_the_elastica() {
         assert!(last(&summary, "rod.end_power").abs() < 1e-4);
     }
 }
+
+/// A free one that is turned, while it is straight still: the fluid carries what acts on its tail along its own axes.
+#[test]
+fn a_load_in_the_frame_of_its_end_is_turned_as_the_body() {
+    const ANGLE: f64 = 0.7;
+    let body = format!(
+        "angle = {ANGLE}\nrod = {{ bending = 1.0, elements = 6, load.tip = {{ frame = \"end\", \
+         force = [{{ constant = 0.6 }}, {{ constant = -0.2 }}] }} }}"
+    );
+    let fluid = "model = \"stokes\", viscosity = 0.2";
+    let summary = run(&boxed(fluid, "step = 0.01, end = 0.01", &slender(&body)));
+    let (sin, cos) = ANGLE.sin_cos();
+    for (axis, exact) in [("x", 0.6 * cos + 0.2 * sin), ("y", 0.6 * sin - 0.2 * cos)] {
+        let held = column(&summary, &format!("rod.force.{axis}"))[0];
+        // What is first written is after a short piece of the first step, in which it turns a little
+        assert!((held + exact).abs() < 1e-3, "{held} {exact}");
+    }
+}

@@ -50,8 +50,8 @@ pub use spec::body::motion::inertia::InertiaSpec;
 pub use spec::body::motion::{ImposedMotion, LoadFrame, Lock, Motion};
 pub use spec::body::orientation::Orientation;
 pub use spec::body::rod::{
-    Activation, AlongBody, Attached, EndLoadSpec, EndLoads, EndMoment, Hold, LoadedEnd, RestShape,
-    RodEnd, RodSpec,
+    Activation, AlongBody, Attached, EndFrame, EndLoadSpec, EndLoads, EndMoment, Hold, LoadedEnd,
+    RestShape, RodEnd, RodSpec,
 };
 pub use spec::body::slip::SlipGait;
 pub use spec::body::spring::SpringSpec;

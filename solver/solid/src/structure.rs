@@ -88,8 +88,9 @@ pub trait Flexible: Structure + std::fmt::Debug {
     /// The centre of the body, as a sum of weights times coordinates.
     fn center_weights(&self) -> Vec<Weight>;
 
-    /// The sum of the loads that are given at its ends at a time (s), which are part of its inner forces; seen as places are.
-    fn given_load(&self, _time: f64) -> GivenLoad {
+    /// The sum of the loads that are given at its ends at coordinates and a time (s), which are part of its inner forces; seen
+    /// as places are.
+    fn given_load(&self, _coordinates: &DVector<f64>, _time: f64) -> GivenLoad {
         GivenLoad::default()
     }
 

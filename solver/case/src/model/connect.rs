@@ -197,7 +197,7 @@ fn of_body(body: &mut Body) -> Vec<Found<'_>> {
 fn of_ends(loads: &mut EndLoads) -> Vec<Found<'_>> {
     let mut found: Vec<Found<'_>> = Vec::new();
     for at_end in loads.ends_mut() {
-        let EndLoadSpec { force, moment } = at_end.load;
+        let EndLoadSpec { force, moment, .. } = at_end.load;
         let forces = force.iter_mut().zip(["x", "y", "z"]).enumerate();
         let forces = forces.map(|(axis, (stroke, name))| {
             (format!("force.{name}"), format!("force.{axis}"), stroke)

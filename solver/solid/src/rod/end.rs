@@ -1,4 +1,4 @@
-//! `End` and `Support`: an end of a rod, where its coordinates are and which of them are held.
+//! `End`, `Axes` and `Support`: an end of a rod, where its coordinates are, what turns a load there, what is held.
 
 use super::elastic::Rod;
 use super::kinematics::Kinematics;
@@ -10,6 +10,15 @@ pub enum End {
     Base,
     /// The other end.
     Tip,
+}
+
+/// The axes that the components of a load at an end are along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axes {
+    /// Those that places are seen in: the load keeps its directions.
+    Fixed,
+    /// Those of the section there, with which the load turns: the tangent first.
+    OfSection,
 }
 
 /// How an end is held.

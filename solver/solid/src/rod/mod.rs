@@ -25,7 +25,7 @@ mod tests;
 
 pub use along::{Along, Field, Varying};
 pub use elastic::Rod;
-pub use end::{End, Support};
+pub use end::{Axes, End, Support};
 pub use error::RodError;
 pub use loads::{LineForce, Resistance};
 pub use planar::{

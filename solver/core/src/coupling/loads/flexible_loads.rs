@@ -82,7 +82,7 @@ pub fn flexible_report<const D: usize>(
         kinetic_energy: 0.5 * rates.dot(&impulse),
         momentum: rigid.pose.to_world(&Vector3::from_fn(|axis, _| along(axis))),
         inner: flexible.inner_power(&at, &rates, now.time),
-        end_force: rigid.pose.to_world(&flexible.given_load(now.time).force),
+        end_force: rigid.pose.to_world(&flexible.given_load(&at, now.time).force),
         base: base.and_then(|base| body_at.base_report(&base, &outer, &rigid.pose)),
     })
 }

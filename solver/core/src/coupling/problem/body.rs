@@ -116,10 +116,12 @@ impl RigidBody {
         }
     }
 
-    /// The loads that are given at its ends at a time (s), in the frame of its coordinates; none of a rigid one.
+    /// The loads that are given at its ends at a time (s), in the frame of its coordinates, those that turn with an end as they are
+    /// in the shape it starts in; none of a rigid one.
     #[must_use]
     pub fn given_load_at_ends(&self, time: f64) -> GivenLoad {
-        self.flexible().map(|flexible| flexible.given_load(time)).unwrap_or_default()
+        let load = |flexible: &dyn Flexible| flexible.given_load(&flexible.initial(), time);
+        self.flexible().map(|flexible| load(flexible.as_ref())).unwrap_or_default()
     }
 
     /// The same body, free in all motions.

@@ -169,8 +169,8 @@ impl Flexible for PlanarRodBody {
         if coordinate % 4 < 2 { 1.0 } else { knots[element + 1] - knots[element] }
     }
 
-    fn given_load(&self, time: f64) -> GivenLoad {
-        let loads = self.ends.iter().map(|end| (end.load)(time));
+    fn given_load(&self, coordinates: &DVector<f64>, time: f64) -> GivenLoad {
+        let loads = self.ends.iter().map(|end| end.at(&self.rod, coordinates, time));
         loads.fold(GivenLoad::default(), |sum, EndLoad { force, moment }| GivenLoad {
             force: sum.force + force.push(0.0),
             moment: sum.moment + Vector3::z() * moment,

@@ -152,8 +152,8 @@ impl Flexible for SpatialRodBody {
         if coordinate % 9 < 3 { 1.0 } else { knots[element + 1] - knots[element] }
     }
 
-    fn given_load(&self, time: f64) -> GivenLoad {
-        let loads = self.ends.iter().map(|end| (end.load)(time));
+    fn given_load(&self, coordinates: &DVector<f64>, time: f64) -> GivenLoad {
+        let loads = self.ends.iter().map(|end| end.at(&self.rod, coordinates, time));
         loads.fold(GivenLoad::default(), |sum, SpatialEndLoad { force, moment }| GivenLoad {
             force: sum.force + force,
             moment: sum.moment + moment,

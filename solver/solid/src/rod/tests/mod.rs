@@ -6,6 +6,7 @@ mod closed;
 mod common;
 mod derivatives;
 mod ends;
+mod follower;
 mod motion;
 mod properties;
 mod resistive;

@@ -43,7 +43,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
 }
 
 fn numbers(findings: &mut Findings<'_>, key: &str, load: &EndLoadSpec) {
-    let EndLoadSpec { force, moment } = load;
+    let EndLoadSpec { force, moment, .. } = load;
     let is_in_space = findings.case().geometry == Geometry::Spatial;
     let (n, place, axes) =
         if is_in_space { (3, "in space", "x, y and z") } else { (2, "in the plane", "x and y") };

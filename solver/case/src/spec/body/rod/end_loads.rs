@@ -26,13 +26,28 @@ pub struct EndLoads {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct EndLoadSpec {
-    /// Force along x and y, and in space z (N; N/m planar), whatever way the end is turned.
+    /// Force along x and y, and in space z, of `frame` (N; N/m planar).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub force: Vec<Stroke>,
-    /// Moment (N m; N planar), whatever way the end is turned: positive where it turns it counter-clockwise, in space a list
-    /// about x, y and z.
+    /// Moment (N m; N planar): positive where it turns the end counter-clockwise, in space a list about x, y and z of `frame`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moment: Option<EndMoment>,
+    /// Axes along which both are given.
+    #[serde(default, skip_serializing_if = "EndFrame::is_laboratory")]
+    pub frame: EndFrame,
+}
+
+/// `frame`: axes along which the load at an end of a rod is given.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum EndFrame {
+    /// Those of the laboratory: the load keeps its direction.
+    #[default]
+    Laboratory,
+    /// Those of the straight body, as the section at the end carries them along: x goes on from the tail to the head, and a
+    /// force along it at the tail is a compressive follower force.
+    End,
 }
 
 /// A moment in time: about the normal of the plane, or about three axes.
@@ -72,6 +87,14 @@ impl RodEnd {
             Self::Base => "base",
             Self::Tip => "tip",
         }
+    }
+}
+
+impl EndFrame {
+    /// Whether it is that of the laboratory.
+    #[must_use]
+    pub fn is_laboratory(&self) -> bool {
+        *self == Self::Laboratory
     }
 }
 

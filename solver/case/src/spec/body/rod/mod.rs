@@ -8,7 +8,7 @@ use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
-pub use self::end_loads::{EndLoadSpec, EndLoads, EndMoment, LoadedEnd, RodEnd};
+pub use self::end_loads::{EndFrame, EndLoadSpec, EndLoads, EndMoment, LoadedEnd, RodEnd};
 use super::stroke::Stroke;
 #[cfg(test)]
 use crate::spec::number::{NonNegative, Positive};

@@ -1,9 +1,9 @@
 //! Numbers along a rod that planar ones and those in space have in common.
 
 use crate::case::{
-    Activation, Body, Case, FlowModel, RestShape, RodEnd, RodSpec, Stroke, TimeSettings,
+    Activation, Body, Case, EndFrame, FlowModel, RestShape, RodEnd, RodSpec, Stroke, TimeSettings,
 };
-use crate::rod::{Along, End, Field, Varying};
+use crate::rod::{Along, Axes, End, Field, Varying};
 use crate::run::RunError;
 
 /// Half width over the largest one below which a body is as stiff as there: ends close in points, which would bend at
@@ -94,6 +94,14 @@ pub fn end(of: RodEnd) -> End {
     match of {
         RodEnd::Base => End::Base,
         RodEnd::Tip => End::Tip,
+    }
+}
+
+/// The axes of a load at an end, by their key.
+pub fn axes(of: EndFrame) -> Axes {
+    match of {
+        EndFrame::Laboratory => Axes::Fixed,
+        EndFrame::End => Axes::OfSection,
     }
 }
 

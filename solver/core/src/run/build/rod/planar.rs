@@ -6,8 +6,8 @@ use std::sync::Arc;
 use alewife_mesh::Profile;
 use nalgebra::{Rotation2, Vector2};
 
-use super::laws::{ENDS, density, end, refused, steady_rest, stiff_enough, with_wave};
-use crate::case::{self, AlongBody, Body, Case, EndLoadSpec, EndMoment, Hold, RodSpec};
+use super::laws::{ENDS, axes, density, end, refused, steady_rest, stiff_enough, with_wave};
+use crate::case::{self, AlongBody, Body, Case, EndFrame, EndLoadSpec, EndMoment, Hold, RodSpec};
 use crate::gait::FlexibleShape;
 use crate::rod::{
     Along, End, EndLoad, EndPose, Flexure, LoadedEnd, PlanarProperties, PlanarRod, PlanarRodBody,
@@ -59,13 +59,18 @@ fn supports(body: &Body, base: EndPose) -> Supports<EndPose> {
     }
 }
 
-/// Loads at the ends, seen from the frame of the straight body as its coordinates are.
+/// Loads at the ends, seen from the frame of the straight body as its coordinates are, or along the tangent and the normal,
+/// which are -x and -y of that frame where it is straight.
 fn loaded_ends(body: &Body) -> Vec<LoadedEnd> {
-    let turn = Rotation2::new(-body.angle);
     let loaded = |at: case::LoadedEnd<&EndLoadSpec>| {
-        let EndLoadSpec { force, moment } = at.load.clone();
+        let EndLoadSpec { force, moment, frame } = at.load.clone();
+        let turn = Rotation2::new(match frame {
+            EndFrame::Laboratory => -body.angle,
+            EndFrame::End => PI,
+        });
         LoadedEnd {
             end: end(at.end),
+            axes: axes(frame),
             load: Box::new(move |time| {
                 let along = |axis: usize| force.get(axis).map_or(0.0, |stroke| stroke.at(time)[0]);
                 EndLoad {

@@ -9,10 +9,11 @@ use alewife_mesh::spatial::{SectionHeight, SectionPoint};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::laws::{
-    ENDS, density, end, longest_step, refused, steady_rest, stiff_enough, with_wave,
+    ENDS, axes, density, end, longest_step, refused, steady_rest, stiff_enough, with_wave,
 };
 use crate::case::{
-    self, Activation, AlongBody, Body, Case, EndLoadSpec, EndMoment, Hold, RodSpec, Stroke,
+    self, Activation, AlongBody, Body, Case, EndFrame, EndLoadSpec, EndMoment, Hold, RodSpec,
+    Stroke,
 };
 use crate::gait::FlexibleSurface;
 use crate::rod::{
@@ -54,10 +55,9 @@ pub fn shape(case: &Case, body: &Body, spec: &RodSpec) -> Result<FlexibleSurface
     let rod = SpatialRod::new(material.properties()).map_err(|error| refuse(&error.to_string()))?;
     let rod = rod.with_relaxation(longest_step(case).unwrap_or_default());
     let nose = sections.point(SectionPoint { along: 0.0, around: 0.0 }).x;
-    let back = Matrix3::from_diagonal(&Vector3::new(-1.0, -1.0, 1.0));
     let base = SpatialEndPose {
         place: Vector3::new(nose, 0.0, 0.0),
-        rotation: Rotation3::from_matrix_unchecked(back),
+        rotation: Rotation3::from_matrix_unchecked(back()),
         ..SpatialEndPose::default()
     };
     let supports = supports(body, base);
@@ -70,6 +70,11 @@ pub fn shape(case: &Case, body: &Body, spec: &RodSpec) -> Result<FlexibleSurface
         .starting(start)
         .with_loaded_ends(loaded_ends(body));
     FlexibleSurface::new(sections, Arc::new(flexible)).ok_or_else(|| refuse("it has no surface"))
+}
+
+/// The frame of the straight rod, t, d1 and d2, by the axes of its body; seen from it, those of the body are the same.
+fn back() -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::new(-1.0, -1.0, 1.0))
 }
 
 /// What holds the head.
@@ -93,11 +98,15 @@ fn turned(base: SpatialEndPose, angle: &Stroke, time: f64) -> SpatialEndPose {
     SpatialEndPose { rotation, angular_velocity: Vector3::z() * rate, ..base }
 }
 
-/// Loads at the ends, seen from the frame of the straight body as its coordinates are.
+/// Loads at the ends, seen from the frame of the straight body as its coordinates are, or along t, d1 and d2.
 fn loaded_ends(body: &Body) -> Vec<SpatialLoadedEnd> {
-    let turn = body.pose_in_space().rotation.inverse();
+    let from_laboratory = body.pose_in_space().rotation.inverse().to_rotation_matrix();
     let loaded = |at: case::LoadedEnd<&EndLoadSpec>| {
-        let EndLoadSpec { force, moment } = at.load.clone();
+        let EndLoadSpec { force, moment, frame } = at.load.clone();
+        let turn = match frame {
+            EndFrame::Laboratory => from_laboratory,
+            EndFrame::End => Rotation3::from_matrix_unchecked(back()),
+        };
         let vector = move |of: &[Stroke], time| {
             let along = |axis: usize| of.get(axis).map_or(0.0, |stroke| stroke.at(time)[0]);
             turn * Vector3::from_fn(|axis, _| along(axis))
@@ -106,7 +115,7 @@ fn loaded_ends(body: &Body) -> Vec<SpatialLoadedEnd> {
             force: vector(&force, time),
             moment: vector(moment.as_ref().map_or(&[], EndMoment::components), time),
         };
-        SpatialLoadedEnd { end: end(at.end), load: Box::new(load) }
+        SpatialLoadedEnd { end: end(at.end), axes: axes(frame), load: Box::new(load) }
     };
     body.end_loads().map(loaded).collect()
 }

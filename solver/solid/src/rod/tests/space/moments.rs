@@ -6,8 +6,8 @@ use super::common::{TWISTING, at_base, simple};
 use super::helix::{REST, coordinates, helix, kirchhoff, tip};
 use crate::dry::DrySystem;
 use crate::rod::{
-    End, SpatialEndLoad, SpatialEndPose, SpatialLoadedEnd, SpatialRod, SpatialRodBody, Support,
-    Supports,
+    Axes, End, SpatialEndLoad, SpatialEndPose, SpatialLoadedEnd, SpatialRod, SpatialRodBody,
+    Support, Supports,
 };
 
 /// The rod, clamped at its base along x, under a load at its tip that grows to this one in steps.
@@ -15,7 +15,7 @@ fn loaded(rod: &SpatialRod, start: DVector<f64>, load: SpatialEndLoad) -> DVecto
     const STEPS: u32 = 8;
     let grows =
         move |time: f64| SpatialEndLoad { force: load.force * time, moment: load.moment * time };
-    let at_tip = SpatialLoadedEnd { end: End::Tip, load: Box::new(grows) };
+    let at_tip = SpatialLoadedEnd { end: End::Tip, axes: Axes::Fixed, load: Box::new(grows) };
     let body = SpatialRodBody::new(rod.clone(), SpatialEndPose::default(), Supports::FREE)
         .with_loaded_ends(vec![at_tip]);
     let system = DrySystem::new(&body, vec![], |_| at_base(rod, Support::Clamped));

@@ -1,12 +1,12 @@
 //! The surface about a rod in space, and its ends.
 
-use nalgebra::{DVector, Rotation3, Vector3, Vector6};
+use nalgebra::{DVector, Matrix3, Rotation3, Vector3, Vector6};
 
-use super::common::{along_x, simple};
-use crate::rod::tests::common::scatter;
+use super::common::{along_x, simple, straight};
+use crate::rod::tests::common::{scatter, unit};
 use crate::rod::{
-    Along, End, SpatialEndLoad, SpatialEndPose, SpatialLoadedEnd, SpatialRodBody,
-    SpatialSectionPoint, Support, Supports,
+    Along, Axes, End, RodProperties, SpatialEndLoad, SpatialEndPose, SpatialLoadedEnd,
+    SpatialRodBody, SpatialSectionPoint, Support, Supports,
 };
 use crate::structure::{BaseMotion, Flexible, Structure};
 
@@ -111,7 +111,8 @@ fn the_base_of_a_rod_has_the_rigid_motion_it_is_in() {
 /// differences.
 #[test]
 fn a_load_at_an_end_does_its_work_there() {
-    let rod = simple(3);
+    // So that loads are not small differences of forces
+    let rod = straight(RodProperties { stretching: 1.0, ..unit(3) });
     let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.5) * 0.1;
     let rates = scatter(rod.n_coordinates(), 1.3);
     let body = || SpatialRodBody::new(rod.clone(), SpatialEndPose::default(), Supports::FREE);
@@ -119,8 +120,11 @@ fn a_load_at_an_end_does_its_work_there() {
         force: Vector3::new(0.3, -0.2, 0.5) * time,
         moment: Vector3::new(-0.7, 0.4, 0.2) * time,
     };
-    for end in [End::Base, End::Tip] {
-        let loaded = body().with_loaded_ends(vec![SpatialLoadedEnd { end, load: Box::new(load) }]);
+    let ends =
+        [Axes::Fixed, Axes::OfSection].map(|axes| [End::Base, End::Tip].map(|end| (end, axes)));
+    for (end, axes) in ends.into_iter().flatten() {
+        let at_end = SpatialLoadedEnd { end, axes, load: Box::new(load) };
+        let loaded = body().with_loaded_ends(vec![at_end]);
         let without = body().forces(&q, &rates, 2.0);
         let change =
             |q: &DVector<f64>| loaded.forces(q, &rates, 2.0) - body().forces(q, &rates, 2.0);
@@ -128,10 +132,15 @@ fn a_load_at_an_end_does_its_work_there() {
         let rounding = 4.0 * f64::EPSILON * without.norm() * rates.norm();
         let power = loaded.inner_power(&q, &rates, 2.0).ends;
         assert!((change(&q).dot(&rates) + power).abs() < rounding.max(1e-12), "{power}");
-        assert_eq!(loaded.given_load(2.0).force, load(2.0).force);
-        assert_eq!(loaded.given_load(2.0).moment, load(2.0).moment);
-        // The frame at the tip is that at the base of the rod the other way round
+        let turn = match axes {
+            Axes::Fixed => Matrix3::identity(),
+            Axes::OfSection => frame_at(&q, rod.first_coordinate(end)),
+        };
         let SpatialEndLoad { force, moment } = load(2.0);
+        let [force, moment] = [force, moment].map(|of| turn * of);
+        assert!((loaded.given_load(&q, 2.0).force - force).norm() < 1e-14);
+        assert!((loaded.given_load(&q, 2.0).moment - moment).norm() < 1e-14);
+        // The frame at the tip is that at the base of the rod the other way round
         let end_rates = |of: &DVector<f64>| match end {
             End::Base => of.clone(),
             End::Tip => DVector::from_fn(of.len(), |i, _| of[27 - 9 * (i / 9) + i % 9]),
@@ -152,4 +161,12 @@ fn a_load_at_an_end_does_its_work_there() {
             assert!((slope - added.column(i)).amax() < 1e-4, "{i}");
         }
     }
+}
+
+/// The tangent, d1 and d2 at an end, whose first coordinate is given.
+fn frame_at(q: &DVector<f64>, first: usize) -> Matrix3<f64> {
+    let [tangent, across] = [3, 6].map(|from| q.fixed_rows::<3>(first + from).into_owned());
+    let second = tangent.cross(&across).normalize();
+    let tangent = tangent.normalize();
+    Matrix3::from_columns(&[tangent, second.cross(&tangent), second])
 }
