@@ -171,9 +171,8 @@ fn a_rebound_of_a_tip_makes_no_energy() {
     assert!(made < 1e-3 * impact, "{made} of {impact}");
 }
 
-/// Two cilia that are pressed together; also from a state, with the same bits.
-#[test]
-fn two_rods_that_touch_push_each_other_back() {
+/// Two cilia that are pressed together.
+fn touching() -> Model {
     let keys = |y: f64, force: f64| {
         format!(
             "center = [0.0, {y}]\nforce = [0.0, {force}]\nrod = {{ bending = 0.5, elements = 10 }}\n{HELD}"
@@ -183,8 +182,12 @@ fn two_rods_that_touch_push_each_other_back() {
         strip("upper", 0.04, &keys(0.055, -2.0)) + &strip("lower", 0.04, &keys(-0.055, 1.0));
     let fluid = "model = \"stokes\", viscosity = 0.02";
     let contact = "range = 0.03, stiffness = 100.0";
-    let model = boxed(fluid, -0.8, "step = 0.04, end = 0.16", contact, &bodies);
-    let whole = simulate::<2>(&model, &mut []).expect("the case runs");
+    boxed(fluid, -0.8, "step = 0.04, end = 0.16", contact, &bodies)
+}
+
+#[test]
+fn two_rods_that_touch_push_each_other_back() {
+    let whole = run(&touching());
     let pressed = last(&whole, "upper.contact_force.y");
     assert!(pressed > 0.01, "{pressed}");
     for axis in ["x", "y"] {
@@ -193,6 +196,14 @@ fn two_rods_that_touch_push_each_other_back() {
         let off = upper.iter().zip(&lower).map(|(one, other)| (one + other).abs());
         assert!(off.fold(0.0, f64::max) <= 1e-14 * pressed);
     }
+}
+
+#[test]
+#[ignore = "long: 19 s; small: bodies_on_a_mesh_that_is_replaced_end_with_the_same_bits"]
+fn two_rods_that_touch_end_with_the_same_bits() {
+    let model = touching();
+    let whole = simulate::<2>(&model, &mut []).expect("the case runs");
+    assert!(last(&whole, "upper.contact_force.y") > 0.01);
     let saved: SavedState<2> = stopped(&model, 2);
     let rest = resumed(&model, &saved).expect("it continues");
     assert!(bits(&rest) == bits(&whole));
