@@ -181,6 +181,7 @@ impl<const D: usize> FluidSystem<D> {
         look()?;
         let system = NewSystem { constraints: &constraints, saddle_point, blocks };
         let linear = system_solver(&assembly, system, choice);
+        look()?;
         let is_free = free_velocities(&layout, problem.bodies.len(), modes, &constraints);
         Ok(Self {
             layout,

@@ -1,5 +1,6 @@
 //! `BlockMaps`: where the matrices of cells go among the blocks of a saddle-point matrix.
 
+use alewife_interrupt::Listener;
 use rayon::prelude::*;
 
 use super::super::super::cell_unknowns::{CellUnknowns, NO_UNKNOWN};
@@ -214,15 +215,20 @@ impl BlockMaps {
     }
 }
 
-/// What `find` gives for each row and each column of each cell, column by column.
+/// What `find` gives for each row and each column of each cell, column by column. Where the work of this thread is to end,
+/// some is left out.
 fn indices(
     columns: &Lists,
     rows: &Lists,
     find: impl Fn(u32, u32) -> Option<usize> + Sync,
 ) -> Vec<u32> {
     let chunks: Vec<usize> = (0..rows.n()).step_by(CHUNK).collect();
+    let listener = Listener::here();
     let parts = chunks.par_iter().map(|&start| {
         let mut indices = Vec::new();
+        if listener.check().is_err() {
+            return indices;
+        }
         for cell in start..(start + CHUNK).min(rows.n()) {
             for &column in columns.list(cell) {
                 let found = rows.list(cell).iter().filter_map(|&row| find(row, column));
