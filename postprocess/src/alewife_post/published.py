@@ -19,6 +19,8 @@ from alewife_post.read import Run, open_run, read_case
 
 PUBLISHED = ("measured", "literature")
 """Kinds of references that others have published."""
+SEARCHES = ("calibration", "optimisation")
+"""Commands of soft cases that find a value, as `of` of a reference names them."""
 BEYOND = 1.1
 """A picture ends where this many times the time of the last published point is over."""
 FEWEST_POINTS = 3
@@ -61,8 +63,10 @@ def pictures(cases: Path, runs: Path, out: Path) -> Iterator[tuple[str, Exceptio
 
 
 def is_published(folder: Path) -> bool:
-    """Whether a case has curves or values others have published."""
-    kinds = {one.get("kind") for one in given_references(folder)}
+    """Whether a case has curves, or values of its runs, that others have published."""
+    # What a search finds is in no run
+    of_runs = (one for one in given_references(folder) if one.get("of") not in SEARCHES)
+    kinds = {one.get("kind") for one in of_runs}
     return bool(curves.curves_of(folder)) or not kinds.isdisjoint(PUBLISHED)
 
 
