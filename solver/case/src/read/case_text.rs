@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::library;
+use super::library::{self, Beside};
 use crate::text::diagnostic::CaseError;
 use crate::text::nearest::several_nearest;
 use crate::text::source::{Origin, Source};
@@ -113,17 +113,15 @@ pub fn shipped_text(case: &library::Shipped) -> CaseText {
 /// # Errors
 /// Why it cannot be read.
 pub fn source_beside(file: &str, origin: &Origin) -> Result<Source, String> {
-    let Source { name, directory, .. } = &*origin.source;
-    if directory.is_none()
-        && let Some(bytes) = library::file_beside(name, file)
-    {
-        let folder = name.strip_suffix("case.toml").unwrap_or_default();
-        let text = String::from_utf8_lossy(bytes).into_owned();
-        return Ok(Source { name: format!("{folder}{file}"), directory: None, text });
-    }
-    let on_disk = directory.as_ref().map(|directory| directory.join(file));
-    let path = on_disk.or_else(|| library::brought(name, file));
-    let path = path.ok_or_else(|| format!("`{file}` cannot be reached from here"))?;
+    let path = match library::beside(&origin.source, file) {
+        Some(Beside::Shipped(bytes)) => {
+            let folder = origin.source.name.strip_suffix("case.toml").unwrap_or_default();
+            let text = String::from_utf8_lossy(bytes).into_owned();
+            return Ok(Source { name: format!("{folder}{file}"), directory: None, text });
+        }
+        Some(Beside::OnDisk(path)) => path,
+        None => return Err(format!("`{file}` cannot be reached from here")),
+    };
     let text = read_text(&path).map_err(|error| match error {
         CaseError::NotFound { what, .. } => what,
         CaseError::Wrong(mut all) if !all.is_empty() => all.swap_remove(0).message,

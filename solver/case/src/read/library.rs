@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::text::source::Source;
+
 /// A shipped case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shipped {
@@ -48,12 +50,24 @@ pub fn file_beside(case_file: &str, name: &str) -> Option<&'static [u8]> {
     FILES.iter().find(is_it).map(|file| file.bytes)
 }
 
-/// Where a file of a shipped case is that does not come with it, if it is there: in the folder in which the program is
-/// called.
-pub(crate) fn brought(case_file: &str, name: &str) -> Option<PathBuf> {
-    let is_shipped = SHIPPED.iter().chain(SOFT).any(|case| case.file == case_file);
-    let path = Path::new(name);
-    (is_shipped && path.is_file()).then(|| path.to_owned())
+/// A file that another one names.
+pub(crate) enum Beside {
+    /// Shipped with the program.
+    Shipped(&'static [u8]),
+    /// To be read from this path, where it may not be.
+    OnDisk(PathBuf),
+}
+
+/// Finds what a file names: beside it on the disk, or, of a shipped case, among the files shipped with it, else in the folder
+/// in which the program is called. None where it cannot be reached.
+pub(crate) fn beside(source: &Source, file: &str) -> Option<Beside> {
+    if let Some(directory) = &source.directory {
+        return Some(Beside::OnDisk(directory.join(file)));
+    }
+    let is_shipped = || SHIPPED.iter().chain(SOFT).any(|case| case.file == source.name);
+    let path = Path::new(file);
+    let brought = || (is_shipped() && path.is_file()).then(|| Beside::OnDisk(path.to_owned()));
+    file_beside(&source.name, file).map(Beside::Shipped).or_else(brought)
 }
 
 /// The shipped case of that name.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::read::library;
+use crate::read::library::{self, Beside};
 use crate::text::diagnostic::{CaseError, Diagnostic, Severity};
 use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TomlValue};
@@ -21,10 +21,10 @@ pub(crate) fn resolve(root: &mut TomlNode) -> Result<(), CaseError> {
     // What is no text is refused when the case is typed
     for file in files.iter() {
         let Some(name) = file.text().filter(|name| !is_there(name, &file.origin)) else { continue };
-        let place = match &file.origin.source.directory {
-            Some(directory) if directory.as_os_str().is_empty() => "this folder".to_owned(),
-            Some(directory) => directory.display().to_string(),
-            None => "this folder".to_owned(),
+        let directory = file.origin.source.directory.as_deref().unwrap_or(Path::new(""));
+        let place = match directory.as_os_str().is_empty() {
+            true => "this folder".to_owned(),
+            false => directory.display().to_string(),
         };
         return Err(CaseError::Elsewhere(Diagnostic {
             severity: Severity::Error,
@@ -39,11 +39,9 @@ pub(crate) fn resolve(root: &mut TomlNode) -> Result<(), CaseError> {
 }
 
 fn is_there(name: &str, origin: &Origin) -> bool {
-    match &origin.source.directory {
-        Some(directory) => directory.join(Path::new(name)).is_file(),
-        None => {
-            let case = &origin.source.name;
-            library::file_beside(case, name).is_some() || library::brought(case, name).is_some()
-        }
+    match library::beside(&origin.source, name) {
+        Some(Beside::Shipped(_)) => true,
+        Some(Beside::OnDisk(path)) => path.is_file(),
+        None => false,
     }
 }

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use alewife_mesh::{MshOptions, Place};
 
-use crate::read::library;
+use crate::read::library::{self, Beside};
 use crate::spec::given_mesh::contents::Contents;
 use crate::spec::given_mesh::mesh_file::MeshSource;
-use crate::text::source::{Origin, Source};
+use crate::text::source::Origin;
 use crate::text::tree::{TomlNode, TreeError};
 use crate::{Case, DomainSpec};
 
@@ -111,19 +111,16 @@ pub(crate) struct Unreadable {
 /// The content of a file named at some place.
 pub(crate) fn bytes_of(file: &str, origin: &Origin) -> Result<Vec<u8>, Unreadable> {
     let unreadable = |message: String, help: &str| Unreadable { message, help: help.to_owned() };
-    let Source { name, directory, .. } = &*origin.source;
-    if directory.is_none()
-        && let Some(bytes) = library::file_beside(name, file)
-    {
-        return Ok(bytes.to_vec());
-    }
-    let on_disk = directory.as_ref().map(|directory| directory.join(file));
-    let Some(path) = on_disk.or_else(|| library::brought(name, file)) else {
-        return Err(unreadable(
-            format!("`{file}` cannot be reached from here"),
-            "a shipped case is given with its mesh: write `extends` with its name, or \
-             `alewife mesh CASE --out FILE.msh`",
-        ));
+    let path = match library::beside(&origin.source, file) {
+        Some(Beside::Shipped(bytes)) => return Ok(bytes.to_vec()),
+        Some(Beside::OnDisk(path)) => path,
+        None => {
+            return Err(unreadable(
+                format!("`{file}` cannot be reached from here"),
+                "a shipped case is given with its mesh: write `extends` with its name, or \
+                 `alewife mesh CASE --out FILE.msh`",
+            ));
+        }
     };
     let failed = |error: std::io::Error| {
         unreadable(
