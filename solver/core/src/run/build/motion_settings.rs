@@ -13,6 +13,12 @@ pub fn motion_settings<const D: usize>(model: &Model, problem: &Problem<D>) -> M
         MeshEquation::Elastic => MotionKind::default(),
         MeshEquation::Harmonic => MotionKind::Harmonic(Stiffening::MasudHughes),
     };
-    let turns = |body: &Body| !problem.metric.is_revolved() && !body.is_round();
+    // The gap between a body and a rod at it is sheared if the mesh does not turn with both
+    let holds_rod = |body: &Body| {
+        let mut attached = model.bodies.iter().filter_map(|rod| rod.attached.as_ref());
+        attached.any(|held| held.to.as_ref() == Some(&body.name))
+    };
+    let turns =
+        |body: &Body| !problem.metric.is_revolved() && (!body.is_round() || holds_rod(body));
     MotionSettings { kind, turns: model.bodies.iter().map(turns).collect() }
 }
