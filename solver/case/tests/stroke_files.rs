@@ -285,6 +285,16 @@ fn files_that_do_not_come_with_a_case_are_looked_for_first() {
     assert!(said.contains("robot.toml:16") && said.contains("it is from a server"), "{said}");
     assert_eq!(data_elsewhere(path.to_str().unwrap()).map(|it| it.to_string()), Some(said));
 
+    let two = data.replace("log.csv\"", "log.csv\", \"far.csv\"");
+    fs::write(&path, format!("{CASE}{two}")).unwrap();
+    let said = Case::read(path.to_str().unwrap(), &[]).unwrap_err().to_string();
+    assert!(said.contains("; nor are `far.csv`"), "{said}");
+    fs::write(&path, format!("{CASE}{data}")).unwrap();
+    fs::create_dir(directory.path().join("log.csv")).unwrap();
+    let said = Case::read(path.to_str().unwrap(), &[]).unwrap_err().to_string();
+    assert!(said.contains("is a folder there and no file"), "{said}");
+    fs::remove_dir(directory.path().join("log.csv")).unwrap();
+
     fs::write(directory.path().join("log.csv"), "t,q\n0,0.0\n0.5,0.2\n1,0.1\n").unwrap();
     assert!(data_elsewhere(path.to_str().unwrap()).is_none());
     let text = read(&path, &[]).to_toml().unwrap();

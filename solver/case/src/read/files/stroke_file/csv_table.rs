@@ -38,6 +38,9 @@ impl CsvTable {
         let unreadable =
             |error: csv::Error| refused(format!("{} is no CSV file: {error}", source.name));
         let header = reader.headers().map_err(unreadable)?.clone();
+        if header.is_empty() {
+            return Err(refused(format!("{} is empty", source.name)));
+        }
         let rows = reader.records().collect::<Result<_, _>>().map_err(unreadable)?;
         Ok(Self { source, header, rows })
     }
