@@ -213,7 +213,7 @@ fn data_that_is_elsewhere_is_asked_for_and_left_out_of_a_validation() {
     assert!(done(at, &["show", "starfish"]).contains("needs starfish.msh"));
     let said = refused(at, &["calibrate", "starfish"], 66);
     assert!(said.contains("not in this folder") && said.contains("diff_pd_public"), "{said}");
-    let said = refused(at, &["validate", "starfish"], 65);
+    let said = refused(at, &["validate", "starfish"], 66);
     assert!(said.contains("starfish is left out"), "{said}");
     let output = alewife(at, &["validate", "starfish", "bar.toml"]);
     let said = String::from_utf8_lossy(&output.stderr);

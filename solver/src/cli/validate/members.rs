@@ -1,5 +1,7 @@
 //! Which runs are compared: the cases and variants that have references.
 
+use std::cell::Cell;
+
 use super::super::exit::Failure;
 use super::super::read::{CheckedCase, read_for_flow};
 use super::super::style::complain;
@@ -13,6 +15,25 @@ pub struct Member {
     pub file: CaseFile,
 }
 
+/// What is left out of a validation.
+#[derive(Default)]
+pub struct LeftOut(Cell<bool>);
+
+impl LeftOut {
+    /// Whether a case has data that does not come with it and is not there: then it is left out, which is said.
+    pub fn takes(&self, name: &str) -> bool {
+        let Some(Diagnostic { message, help, .. }) = data_elsewhere(name) else { return false };
+        complain(&format!("{name} is left out: {message}; {help}"));
+        self.0.set(true);
+        true
+    }
+
+    /// Whether there was any.
+    pub fn any(&self) -> bool {
+        self.0.get()
+    }
+}
+
 /// The members of all these cases, each of them read and checked.
 ///
 /// # Errors
@@ -20,6 +41,7 @@ pub struct Member {
 pub fn all_members(
     names: &[String],
     only_quick: bool,
+    left_out: &LeftOut,
     is_to_end: &dyn Fn() -> Result<(), Failure>,
 ) -> Result<Vec<Member>, Failure> {
     let (mut members, mut failures) = (Vec::new(), Vec::new());
@@ -27,7 +49,7 @@ pub fn all_members(
         is_to_end()?;
         match members_of(name, only_quick) {
             Ok(found) => {
-                for name in found.into_iter().filter(|name| !is_elsewhere(name)) {
+                for name in found.into_iter().filter(|name| !left_out.takes(name)) {
                     match read_for_flow(&name, &[]) {
                         Ok(CheckedCase { file, .. }) => members.push(Member { name, file }),
                         Err(failure) => failures.push(failure.of(&name)),
@@ -38,13 +60,6 @@ pub fn all_members(
         }
     }
     Failure::all(failures).map_or(Ok(members), Err)
-}
-
-/// Whether a case has data that does not come with it and is not there: then it is left out, which is said.
-pub fn is_elsewhere(name: &str) -> bool {
-    let Some(Diagnostic { message, help, .. }) = data_elsewhere(name) else { return false };
-    complain(&format!("{name} is left out: {message}; {help}"));
-    true
 }
 
 /// The case and its variants that have something to be compared with.

@@ -22,7 +22,7 @@ use crate::validation::{
     CaseReport, Comparison, Links, ReportPage, comparisons_to_json, count_table,
     raise_coincidences, summary,
 };
-use members::{Member, all_members};
+use members::{LeftOut, Member, all_members};
 use report::{ReportFile, case_report};
 use searches::{Searched, Split, split};
 use work::{Place, Work};
@@ -105,12 +105,13 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     } else {
         options.cases.clone()
     };
-    let Split { flows, mut searched } = split(&names, options.quick, &is_to_end)?;
+    let left_out = LeftOut::default();
+    let Split { flows, mut searched } = split(&names, options.quick, &left_out, &is_to_end)?;
     // A page has sections of runs, and kept runs are none of searches
     if options.report.is_some() || options.markdown || options.from.is_some() {
         searched.clear();
     }
-    let members = all_members(&flows, options.quick, &is_to_end)?;
+    let members = all_members(&flows, options.quick, &left_out, &is_to_end)?;
     let n_threads = threads::start(options.threads)?;
     // What runs warn of is in the status of those that are kept
     start_log(None, -1)?;
@@ -118,6 +119,10 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     if members.is_empty() && searched.is_empty() {
         let names = names.join(", ");
         let quick = if options.quick { "quick " } else { "" };
+        if left_out.any() {
+            let nothing = format!("{names}: nothing is left to compare without the data");
+            return Err(Failure::new(Exit::NoInput, nothing));
+        }
         let nothing = format!("{names}: there is no {quick}reference to compare with");
         return Err(Failure::new(Exit::BadCase, nothing));
     }

@@ -9,7 +9,7 @@ use alewife_reduced::tier::{
 use super::super::exit::{Exit, Failure};
 use super::super::optimise::search_failure;
 use super::super::read::{CheckedCase, read_and_check};
-use super::members::{is_elsewhere, members_of};
+use super::members::{LeftOut, members_of};
 use crate::case::soft::SoftFile;
 use crate::case::soft::spec::ReferenceOf;
 use crate::case::{
@@ -46,12 +46,13 @@ pub struct Split {
 pub fn split(
     names: &[String],
     only_quick: bool,
+    left_out: &LeftOut,
     is_to_end: &dyn Fn() -> Result<(), Failure>,
 ) -> Result<Split, Failure> {
     let mut split = Split { flows: Vec::new(), searched: Vec::new() };
     for name in names {
         is_to_end()?;
-        if is_elsewhere(name) {
+        if left_out.takes(name) {
             continue;
         }
         match SoftFile::read_if_soft(name, &[]) {
@@ -60,7 +61,7 @@ pub fn split(
                 split.searched.push(Searched::Soft(Box::new(file)));
                 for variant in variants {
                     let name = format!("{name}/{}", variant.name);
-                    if !is_elsewhere(&name) {
+                    if !left_out.takes(&name) {
                         let file = SoftFile::read(&name, &[])?;
                         split.searched.push(Searched::Soft(Box::new(file)));
                     }
