@@ -20,7 +20,7 @@ mod slopes;
 mod swimmer;
 
 pub use calibrate::{
-    CalibrateError, Calibrated, Deviation, JOURNAL, Overlay, Tally, calibrate, calibrate_in,
+    CalibrateError, Calibrated, Deviation, JOURNAL, Overlay, RUN, Tally, calibrate, calibrate_in,
     check_records,
 };
 pub use error::ReducedError;

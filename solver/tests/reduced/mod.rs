@@ -5,6 +5,7 @@ mod calibration;
 mod elongated;
 mod exchange;
 mod fish;
+mod fitted_numbers;
 mod guided;
 mod mutations;
 mod slopes;

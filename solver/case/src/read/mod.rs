@@ -12,6 +12,7 @@ pub(crate) mod directory_name;
 pub(crate) mod elsewhere;
 pub(crate) mod files;
 pub mod library;
+mod named_file;
 pub(crate) mod problem_keys;
 pub(crate) mod recording;
 mod reference_rows;

@@ -13,6 +13,9 @@ pub const SOLVED_TABLES: [&str; 7] =
 /// The same of a reduced model.
 pub const MOVED_TABLES: [&str; 4] = ["joint", "reduced", "swimmer", "time"];
 
+/// The same of what is fitted to recorded tracks.
+pub const TRACKED_TABLES: [&str; 5] = ["body", "fluid", "joint", "reduced", "swimmer"];
+
 /// A number that a search changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoughtNumber {
@@ -45,8 +48,24 @@ impl CaseFile {
     #[must_use]
     pub fn sought(&self) -> Vec<SoughtNumber> {
         let parameters = self.case().optimisation.iter().flat_map(|own| &own.parameter);
-        let numbered = parameters.enumerate();
-        numbered.flat_map(|(nth, parameter)| self.numbers_of(nth, parameter)).collect()
+        self.numbers_of_all("optimisation", parameters)
+    }
+
+    /// The same of a calibration.
+    #[must_use]
+    pub fn fitted_numbers(&self) -> Vec<SoughtNumber> {
+        let parameters = self.case().calibration.iter().flat_map(|own| &own.parameter);
+        self.numbers_of_all("calibration", parameters)
+    }
+
+    fn numbers_of_all<'a>(
+        &self,
+        table: &str,
+        parameters: impl Iterator<Item = &'a FlowParameter>,
+    ) -> Vec<SoughtNumber> {
+        let at = |nth: usize| format!("{table}.parameter.{nth}");
+        let numbers = |(nth, parameter)| self.numbers_of(&at(nth), parameter);
+        parameters.enumerate().flat_map(numbers).collect()
     }
 
     /// The keys of the numbers a key of the case leads to: of itself, or of all entries of a list of numbers.
@@ -60,7 +79,7 @@ impl CaseFile {
         if entries.iter().all(|entry| self.number(entry).is_some()) { entries } else { Vec::new() }
     }
 
-    fn numbers_of(&self, nth: usize, parameter: &FlowParameter) -> Vec<SoughtNumber> {
+    fn numbers_of(&self, at: &str, parameter: &FlowParameter) -> Vec<SoughtNumber> {
         let FlowParameter { name, keys, values, start, bounds, scale } = parameter;
         let found: Vec<Vec<String>> = keys.iter().map(|key| self.numbers_at(key)).collect();
         let n = found.iter().map(Vec::len).min().unwrap_or(0).max(1);
@@ -74,7 +93,7 @@ impl CaseFile {
             let own = first.and_then(|first| self.number(&first.key));
             SoughtNumber {
                 name: if n == 1 { name.clone() } else { format!("{name}.{entry}") },
-                at: format!("optimisation.parameter.{nth}"),
+                at: at.to_owned(),
                 keys,
                 start: start.or(own).unwrap_or(f64::NAN),
                 bounds: *bounds,

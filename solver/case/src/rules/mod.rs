@@ -68,7 +68,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     references::check(&mut findings);
     reduced::check(&mut findings);
     optimisation::check(&mut findings, file);
-    reduced::calibration::check(&mut findings);
+    reduced::calibration::check(&mut findings, file);
     environment::check(&mut findings, file);
     extremes::check(&mut findings, file);
     if has_flow && findings.has_no_error() {
@@ -92,7 +92,8 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
 #[must_use]
 pub fn check_starts(file: &CaseFile) -> Vec<Diagnostic> {
     let mut findings = Findings::new(file);
-    optimisation::check_starts(&mut findings, file);
+    optimisation::check_starts(&mut findings, &file.sought());
+    optimisation::check_starts(&mut findings, &file.fitted_numbers());
     reduced::calibration::check_starts(&mut findings);
     findings.into_diagnostics()
 }

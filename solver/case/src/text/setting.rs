@@ -7,6 +7,9 @@ use super::source::{Origin, Source};
 use super::tree;
 use super::tree::{TomlNode, TomlValue, TreeError};
 
+/// Name of the source of a setting.
+pub const NAME: &str = "--set";
+
 /// A key that is set, and its value.
 pub struct Setting {
     /// The key, with its tables.
@@ -18,7 +21,7 @@ pub struct Setting {
 /// The text of a setting as a source that messages can point at.
 pub fn source(setting: &str) -> Arc<Source> {
     Arc::new(Source {
-        name: "--set".to_owned(),
+        name: NAME.to_owned(),
         directory: Some(PathBuf::new()),
         text: setting.to_owned(),
     })

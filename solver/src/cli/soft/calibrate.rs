@@ -11,7 +11,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::{print_warnings, read_and_check};
 use crate::cli::style::{complain, say};
 use crate::observer::{remove_if_there, write_atomic};
-use crate::reduced::{CalibrateError, JOURNAL, ReducedError, calibrate_in as find};
+use crate::reduced::{CalibrateError, JOURNAL, RUN, ReducedError, calibrate_in as find};
 
 /// The file that a calibration of a reduced model writes.
 const FILE: &str = "calibrated.toml";
@@ -60,7 +60,11 @@ pub fn calibrate(options: &SearchOptions) -> Result<Exit, Failure> {
         Failure::new(exit, error.to_string())
     })?;
     say(found.text().trim_end());
-    write_atomic(&out.join(TRACKS), found.to_csv().as_bytes())
+    let run = match found.run() {
+        Some(case) => write_atomic(&out.join(RUN), case.as_bytes()),
+        None => remove_if_there(&out.join(RUN)),
+    };
+    run.and_then(|()| write_atomic(&out.join(TRACKS), found.to_csv().as_bytes()))
         .and_then(|()| write_atomic(&out.join(FILE), found.to_toml().as_bytes()))
         .map_err(|error| not_written(&out, &error))?;
     say(&format!("written to {}", out.display()));

@@ -6,6 +6,7 @@ mod error;
 mod file;
 mod kinematics;
 mod loads;
+mod reading;
 mod record;
 mod report;
 mod search;
@@ -15,7 +16,8 @@ mod tracks;
 
 pub use compare::{Deviation, Overlay};
 pub use error::CalibrateError;
-pub use record::check_records;
+pub use reading::check_records;
+pub use report::RUN;
 pub use search::{JOURNAL, Tally};
 
 use std::path::Path;
@@ -25,7 +27,8 @@ use alewife_reduced::tree::{Fit, Residuals, TreeError, fit};
 
 use self::both::Both;
 use self::loads::Loads;
-use self::record::{Origin, Record, records, written_in};
+use self::reading::{records, written_in};
+use self::record::{Origin, Record};
 use self::search::{Desk, Searched, directory_of, searched};
 use self::sought::{Sought, with_found};
 use self::tracks::Swims;
@@ -51,6 +54,8 @@ pub struct Calibrated {
     /// Tracks of all runs and records over those of the model.
     pub overlays: Vec<Overlay>,
     spec: ReducedSpec,
+    /// The case with all that was found, where other numbers than coefficients were.
+    run: Option<String>,
     by: FitBy,
     case: String,
     bodies: Vec<String>,
@@ -105,10 +110,34 @@ impl Fits<'_> {
         let Some(search) = &self.spec.search else {
             return Ok(Found { fit: fit(residuals, start, bounds, MOST_STEPS)?, tally: None });
         };
-        let Searched { fit, tally } =
-            searched(residuals, self.sought, &self.spec.fit, search, desk)?;
+        let Searched { fit, tally } = searched(residuals, self.sought, search, desk)?;
         Ok(Found { fit, tally: Some(tally) })
     }
+}
+
+/// The case with all that was found, where that is more than coefficients, as a text.
+fn run_of(
+    file: &CaseFile,
+    sought: &Sought,
+    law: &ReducedSpec,
+    found: &[f64],
+) -> Result<Option<String>, CalibrateError> {
+    if !sought.has_numbers() {
+        return Ok(None);
+    }
+    let wrong = |what: String| CalibrateError::Tree(TreeError::Given(what));
+    let numbers = sought.numbers(file, found).map_err(|error| wrong(error.to_string()))?;
+    let changed = file.with_numbers(&numbers).map_err(|error| wrong(error.to_string()))?;
+    let mut case = changed.case().clone();
+    let own = case.reduced_model();
+    case.reduced = Some(ReducedSpec {
+        coefficients: law.coefficients.clone(),
+        body: law.body.clone(),
+        calibrated: None,
+        ..own
+    });
+    case.calibration = None;
+    case.to_toml().map(Some).map_err(|error| wrong(error.to_string()))
 }
 
 /// Finds the coefficients that a case asks for; a search among them leaves no journal.
@@ -146,7 +175,7 @@ pub fn calibrate_in(
     let case = file.case();
     let Some(spec) = &case.calibration else { return Err(CalibrateError::Nothing) };
     let reduced = case.reduced_model();
-    let sought = Sought::new(spec, &reduced, &file.model);
+    let sought = Sought::new(spec, &reduced, file);
     let records = records(file, spec, &reduced)?;
     let fitted: Vec<&Record> = records.iter().filter(|one| !one.is_held_out).collect();
     let desk = &mut Desk {
@@ -158,17 +187,19 @@ pub fn calibrate_in(
     let fits = Fits { records: &fitted, sought: &sought, spec, law: reduced.loads };
     let Found { fit, tally } = fits.found(desk)?;
     check_whole().map_err(TreeError::from)?;
-    let remark = standing::judged(&fit, &sought.start, &sought.bounds, &spec.fit)?;
+    let remark = standing::judged(&fit, &sought.start, &sought.bounds, &sought.names)?;
     let found = with_found(&reduced, &spec.fit, &fit.parameters);
+    let run = run_of(file, &sought, &found, &fit.parameters)?;
     let (mut deviations, mut overlays) = (Vec::new(), Vec::new());
     for record in &records {
+        let record = &*record.at(&sought, &fit.parameters)?;
         let own = compare::overlays(record, &sought, &fit.parameters)?;
         deviations.extend(compare::deviations(record, &sought, &spec.fit, &fit.parameters, &own)?);
         overlays.extend(own);
     }
     Ok(Calibrated {
-        names: spec.fit.clone(),
-        bounds: spec.fit.iter().map(|name| spec.bounds_of(name)).collect(),
+        names: sought.names.clone(),
+        bounds: sought.bounds.iter().map(|one| [one.lower, one.upper]).collect(),
         has_effect: standing::has_effect(&fit, &sought.bounds),
         remark,
         tally,
@@ -176,6 +207,7 @@ pub fn calibrate_in(
         deviations,
         overlays,
         spec: found,
+        run,
         by: spec.fits(),
         case: file.full_name(),
         bodies: file.model.bodies.iter().map(|body| body.name.clone()).collect(),

@@ -9,6 +9,9 @@ use super::Calibrated;
 use super::record::Origin;
 use crate::case::{FitBy, significant};
 
+/// The file with the case and all that was found, where that is more than coefficients.
+pub const RUN: &str = "case.toml";
+
 impl Calibrated {
     /// Why a value says little, if it does.
     fn doubt(&self, nth: usize) -> Option<&'static str> {
@@ -75,9 +78,22 @@ impl Calibrated {
         text
     }
 
-    /// The file that a case names as `reduced.calibrated`.
+    /// The case with all that was found, where other numbers than coefficients were, as a text.
+    #[must_use]
+    pub fn run(&self) -> Option<&str> {
+        self.run.as_deref()
+    }
+
+    /// The file that a case names as `reduced.calibrated`; where there is more to it than coefficients, all is in
+    /// [`Self::run`].
     #[must_use]
     pub fn to_toml(&self) -> String {
+        if self.run.is_some() {
+            let mut file = Table::new();
+            file.insert("calibrated".to_owned(), self.facts().into());
+            let head = format!("# Written by `alewife calibrate`. What was found is in {RUN}.\n\n");
+            return toml::to_string(&file).map_or_else(|_| String::new(), |text| head + &text);
+        }
         let mut reduced = Table::new();
         reduced.insert("loads".to_owned(), self.spec.loads.name().into());
         let values = self.spec.coefficients.iter();
@@ -127,6 +143,9 @@ impl Calibrated {
             FitBy::Both => "both",
         };
         facts.insert("by".to_owned(), by.into());
+        if self.run.is_some() {
+            facts.insert("run".to_owned(), RUN.into());
+        }
         let texts = |all: &[String]| Value::from(all.to_vec());
         facts.insert("bodies".to_owned(), texts(&self.bodies));
         let fitted = || self.origins.iter().filter(|one| !one.is_held_out);

@@ -78,7 +78,6 @@ pub struct Searched {
 pub fn searched(
     residuals: &impl Residuals,
     sought: &Sought,
-    names: &[String],
     spec: &ProposalSpec,
     desk: &mut Desk<'_>,
 ) -> Result<Searched, CalibrateError> {
@@ -89,7 +88,7 @@ pub fn searched(
         upper: sought.bounds[nth].upper,
         scale: Some(1.0),
     };
-    let bounded: Vec<Bounded> = names.iter().enumerate().map(bounded).collect();
+    let bounded: Vec<Bounded> = sought.names.iter().enumerate().map(bounded).collect();
     let opened = desk.directory.as_ref().map(|one| Journal::open(&one.join(JOURNAL), &desk.name));
     let (journal, known) = match opened.transpose()? {
         Some(Opened { journal, known }) => (Some(journal), known),

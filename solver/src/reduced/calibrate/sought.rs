@@ -1,8 +1,11 @@
-//! `Sought`: the coefficients that a calibration finds.
+//! `Sought`: the coefficients that a calibration finds, and other numbers of the case.
 
 use alewife_reduced::tree::{Bounds, Number, real};
 
-use crate::case::{CalibrationSpec, FitName, Model, ReducedSpec};
+use crate::case::{
+    CalibrationSpec, CaseError, CaseFile, FitName, ReducedSpec, SoughtNumber, WrittenNumber,
+    numbers_at,
+};
 
 /// A coefficient that is found.
 #[derive(Debug, Clone, Copy)]
@@ -13,9 +16,15 @@ struct Coefficient {
     body: Option<usize>,
 }
 
-/// Which coefficients of a law are found.
+/// Part of each value that differences go to either side at the end of a search for numbers of the case.
+const DIFFERENCES: f64 = 0.02;
+
+/// What is found: first coefficients of a law, then other numbers of the case.
 pub struct Sought {
     coefficients: Vec<Coefficient>,
+    numbers: Vec<SoughtNumber>,
+    /// Names of all.
+    pub names: Vec<String>,
     pub bounds: Vec<Bounds>,
     pub start: Vec<f64>,
     /// Part of each that differences go to either side, if not exact derivatives are taken.
@@ -23,21 +32,43 @@ pub struct Sought {
 }
 
 impl Sought {
-    pub fn new(spec: &CalibrationSpec, reduced: &ReducedSpec, model: &Model) -> Self {
+    pub fn new(spec: &CalibrationSpec, reduced: &ReducedSpec, file: &CaseFile) -> Self {
         let all = reduced.loads.coefficients();
         let (coefficients, bounds, start) = (Vec::new(), Vec::new(), Vec::new());
-        let differences = spec.differences;
-        let mut sought = Self { coefficients, bounds, start, differences };
+        let numbers = file.fitted_numbers();
+        let differences = spec.differences.or((!numbers.is_empty()).then_some(DIFFERENCES));
+        let names = Vec::new();
+        let mut sought = Self { coefficients, numbers, names, bounds, start, differences };
         for name in &spec.fit {
             let FitName { body, coefficient } = FitName::new(name);
             let Some(number) = all.iter().position(|one| one.name == coefficient) else { continue };
             let [lower, upper] = spec.bounds_of(name);
-            let own = body.and_then(|body| model.body_index(body));
+            let own = body.and_then(|body| file.model.body_index(body));
+            sought.names.push(name.clone());
             sought.coefficients.push(Coefficient { number, body: own });
             sought.bounds.push(Bounds { lower, upper });
             sought.start.push(reduced.coefficients_of(body.unwrap_or_default())[number]);
         }
+        for SoughtNumber { name, start, bounds: [lower, upper], .. } in &sought.numbers {
+            sought.names.push(name.clone());
+            sought.bounds.push(Bounds { lower: *lower, upper: *upper });
+            sought.start.push(*start);
+        }
         sought
+    }
+
+    /// Whether other numbers of the case are found than coefficients.
+    pub fn has_numbers(&self) -> bool {
+        !self.numbers.is_empty()
+    }
+
+    /// The other numbers of a case at the values of all that is found.
+    ///
+    /// # Errors
+    /// An expression of them that is no number.
+    pub fn numbers(&self, file: &CaseFile, found: &[f64]) -> Result<Vec<WrittenNumber>, CaseError> {
+        let own = found.get(self.coefficients.len()..).unwrap_or_default();
+        numbers_at(&self.numbers, &file.case().define, own)
     }
 
     /// All coefficients of a body with those that are found at other values.

@@ -2,6 +2,7 @@
 
 use alewife_reduced::tree::compiled::Compiled;
 use alewife_reduced::tree::{Dual64, Number, Pose, Residuals, Tree, TreeError, real};
+use rayon::prelude::*;
 
 use super::record::Record;
 use super::sought::Sought;
@@ -17,14 +18,21 @@ pub struct Swims<'a> {
 
 impl Swims<'_> {
     fn left<T: Compiled>(&self, parameters: &[T]) -> Result<Vec<T>, TreeError> {
+        // Each by itself: the sum is in their order
+        let of_each: Result<Vec<Vec<T>>, TreeError> =
+            self.records.par_iter().map(|record| self.left_of(record, parameters)).collect();
+        Ok(of_each?.concat())
+    }
+
+    fn left_of<T: Compiled>(&self, record: &Record, parameters: &[T]) -> Result<Vec<T>, TreeError> {
+        let found: Vec<f64> = parameters.iter().map(|one| one.re()).collect();
+        let record = &*record.at(self.sought, &found)?;
+        let made = motion(record, |body, own| self.sought.filled(body, own, parameters))?;
         let mut left = Vec::new();
-        for record in self.records {
-            let made = motion(record, |body, own| self.sought.filled(body, own, parameters))?;
-            for (track, made) in record.tracks.iter().zip(made) {
-                let lever = if track.axis == 3 { lever(record) } else { 1.0 };
-                let rows = made.iter().zip(&track.values);
-                left.extend(rows.map(|(made, seen)| (*made - *seen) * lever));
-            }
+        for (track, made) in record.tracks.iter().zip(made) {
+            let lever = if track.axis == 3 { lever(record) } else { 1.0 };
+            let rows = made.iter().zip(&track.values);
+            left.extend(rows.map(|(made, seen)| (*made - *seen) * lever));
         }
         Ok(left)
     }

@@ -46,6 +46,11 @@ impl Calibrated {
         let file = tree::parse(&Arc::new(source))?;
         let (ours, theirs) = (law(root), law(&file));
         let coefficients = file.get("reduced.coefficients").and_then(TomlNode::table);
+        if let Some(run) = file.get("calibrated.run").and_then(TomlNode::text) {
+            let message = format!("{path} has other numbers than coefficients, too");
+            let help = format!("run the case that was written beside it, {run}, or extend it");
+            return Err(refused(origin, message, &help));
+        }
         let (Some(coefficients), Some(facts)) = (coefficients, file.get("calibrated")) else {
             return Err(refused(
                 origin,

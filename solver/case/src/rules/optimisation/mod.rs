@@ -7,7 +7,7 @@ mod parameters;
 
 use self::constant::check_constant;
 use self::known::check_known;
-pub use self::parameters::check_starts;
+pub use self::parameters::{check_fitted, check_starts};
 use super::Findings;
 use crate::read::CaseFile;
 use crate::spec::formula::mistake_in_name;
@@ -28,7 +28,7 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
         findings.error(key, format!("[optimisation] follows gradients, and {message}"), &help);
     }
     check_objective(findings, &spec.objective);
-    parameters::check(findings, file, spec);
+    parameters::check(findings, file, &spec.parameter);
     constraints::check(findings, spec);
     if spec.search.evaluations == 0 {
         let key = "optimisation.search.evaluations";

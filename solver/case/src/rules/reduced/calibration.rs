@@ -1,6 +1,8 @@
 //! Problems of `[calibration]`, and of a calibrated file in a case it was not found for.
 
 use super::is_a_body;
+use crate::read::CaseFile;
+use crate::rules::optimisation::check_fitted;
 use crate::rules::{Findings, OneOf};
 use crate::text::nearest::nearest;
 use crate::{
@@ -10,9 +12,10 @@ use crate::{
 /// What a record may have of a body.
 const TRACKS: [&str; 4] = ["x", "y", "z", "angle"];
 
-pub fn check(findings: &mut Findings<'_>) {
+pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
     if let Some(spec) = &findings.case().calibration {
         coefficients(findings, spec);
+        numbers(findings, file, spec);
         for (index, name) in spec.tracks.iter().enumerate() {
             track(findings, &format!("calibration.tracks.{index}"), name);
         }
@@ -31,7 +34,7 @@ fn coefficients(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
     let reduced = findings.case().reduced_model();
     let known: Vec<&str> = reduced.loads.coefficients().iter().map(|one| one.name).collect();
     let law = reduced.loads.name();
-    if spec.fit.is_empty() {
+    if spec.fit.is_empty() && spec.parameter.is_empty() {
         let help = format!("coefficients of \"{law}\": {}", known.join(", "));
         findings.error("calibration.fit", "nothing is to be found".to_owned(), &help);
     }
@@ -67,6 +70,34 @@ fn coefficients(findings: &mut Findings<'_>, spec: &CalibrationSpec) {
     if !matches!(findings.case().time, TimeSettings::Unsteady(_)) {
         let message = "a steady flow has no motion to be fitted to".to_owned();
         findings.error("time.steady", message, "write [time.unsteady]");
+    }
+}
+
+/// Numbers of the case are found by tracks of CSV files, and without exact derivatives.
+fn numbers(findings: &mut Findings<'_>, file: &CaseFile, spec: &CalibrationSpec) {
+    if spec.parameter.is_empty() {
+        return;
+    }
+    check_fitted(findings, file, &spec.parameter);
+    let key = "calibration.parameter";
+    if spec.fits() != FitBy::Tracks {
+        let message = "numbers of the case are fitted to tracks".to_owned();
+        findings.error(key, message, "write by = \"tracks\" and CSV files, or leave them out");
+    } else if spec.search.is_none() && spec.differences.is_none() {
+        let message = "exact derivatives are those by coefficients alone".to_owned();
+        let help = "write differences = 0.02, or [calibration.search]";
+        findings.error(key, message, help);
+    }
+    for (index, parameter) in spec.parameter.iter().enumerate() {
+        if spec.fit.contains(&parameter.name) {
+            let message = format!("\"{}\" is a coefficient in calibration.fit", parameter.name);
+            findings.error(&format!("{key}.{index}.name"), message, "give it another name");
+        }
+    }
+    for (index, _) in spec.from.iter().enumerate().filter(|(_, from)| from.run.is_some()) {
+        let message = "the case of a run has its own numbers".to_owned();
+        let help = "name its series.csv as `csv`, with time = \"time\" and `columns`";
+        findings.error(&format!("calibration.from.{index}.run"), message, help);
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::FlowParameter;
 #[cfg(test)]
 use crate::spec::number::Positive;
 
@@ -14,8 +15,11 @@ use crate::spec::number::Positive;
 pub struct CalibrationSpec {
     /// Names of the coefficients that are found, the same for all bodies, or for one body, which is `NAME.slender` then;
     /// others stay as they are.
-    #[cfg_attr(test, schemars(length(min = 1)))]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fit: Vec<String>,
+    /// Other numbers of the case that are found, in a fit to tracks of CSV files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parameter: Vec<FlowParameter>,
     /// Smallest and largest value of each by its name; 0 and 1000 if absent. The value in `[reduced]`, where a fit to
     /// tracks starts, is between them.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -26,8 +30,9 @@ pub struct CalibrationSpec {
     /// Tracks of runs that are fitted: `NAME.x`, `.y`, `.z` or `.angle` of bodies; those of the first body if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tracks: Vec<String>,
-    /// Part of each coefficient that central differences go to either side in a fit to tracks, in place of exact derivatives:
-    /// for long motions that forget how they began, along which exact derivatives grow without end.
+    /// Part of each value that central differences go to either side in a fit to tracks, in place of exact derivatives:
+    /// for long motions that forget how they began, along which exact derivatives grow without end, and for numbers of
+    /// the case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub differences: Option<f64>,
