@@ -23,6 +23,10 @@ const MOST_PAIRS: usize = 40_000_000;
 /// Most triangles of a sheet that is joined to another one.
 const SPLINTER: usize = 3;
 
+/// Edges that turn by more than this (degrees) are of a shape, not of coarse triangles: those of a prism on a
+/// hexagon turn by 60.
+const MOST_FADED: f64 = 55.0;
+
 /// Cosine of the angle between normals of walls that face each other.
 const FACING: f64 = -0.5;
 
@@ -292,7 +296,8 @@ fn join_splinters(mesh: &TriangleMesh, smooth: f64, groups: &mut Groups) {
         for (own, across) in [(pair[0], pair[1]), (pair[1], pair[0])] {
             let root = groups.root(own);
             let is_splinter = sizes[&root] <= SPLINTER && root != groups.root(across);
-            let known = least.get(&root).map_or(2.0 * smooth, |known| known.0);
+            let most = (2.0 * smooth).min(MOST_FADED);
+            let known = least.get(&root).map_or(most, |known| known.0);
             if is_splinter && angle < known {
                 least.insert(root, (angle, across));
             }

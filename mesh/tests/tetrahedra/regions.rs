@@ -94,6 +94,20 @@ fn a_box_keeps_its_edges_and_corners_however_it_lies() {
     }
 }
 
+/// The angle by default is half of a right one; faces of two triangles are those of shapes here.
+#[test]
+fn faces_of_two_triangles_stay_apart_at_right_angles_and_those_of_hexagons() {
+    for angles in [[0.0; 3], [0.3, 0.5, -0.7], [1.1, -0.2, 0.4], [0.7, 0.1, 2.0]] {
+        let cube = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let cube = Sides::prism(&cube, 1.0, 1, [0.5, 0.5]).turned(angles).region(45.0);
+        assert_eq!(cube.n_sheets(), 6);
+        assert!((cube.volume() - 1.0).abs() < 1e-12, "{}", cube.volume());
+        let hexagon = Sides::prism(&circle(6), 1.0, 1, [0.0, 0.0]).turned(angles).region(45.0);
+        assert_eq!(hexagon.n_sheets(), 8);
+        assert!((hexagon.volume() / (1.5 * 3.0_f64.sqrt()) - 1.0).abs() < 1e-12);
+    }
+}
+
 /// Edges at which the region turns outwards.
 #[test]
 fn corners_that_stand_into_the_region_stay() {
