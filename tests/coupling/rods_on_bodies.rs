@@ -70,6 +70,25 @@ fn rods_of_any_stiffness_take_whole_steps() {
     }
 }
 
+/// Pulled by its tail, on a head that is held or pulled as much the other way: until the fluid is at rest, by how much of its length F / A
+/// says.
+#[test]
+fn a_rod_that_is_clamped_to_a_body_is_stretched_by_a_force_along_it() {
+    for head in ["motion = \"held\"", "motion = \"free\"\nforce = [0.5, 0.0]"] {
+        let tail = "rod = { bending = 5.0, elements = 3, stretching = 10.0, load.tip.force = [{ constant = -0.5 }, { constant = 0.0 }] }\n\
+             attached = { to = \"head\", hold = \"clamped\" }";
+        let model = head_and_tail("step = 20.0, end = 160.0", head, tail);
+        let length = model.bodies[0].shape.profile().expect("it is slender").length();
+        let summary = run(&model);
+        let apart =
+            |row: usize| column(&summary, "head.x")[row] - column(&summary, "tail.tip.x")[row];
+        let end = column(&summary, "head.x").len() - 1;
+        let off = (apart(end) - apart(0)) / (length * 0.05) - 1.0;
+        figure!(off, "{head}");
+        assert!(off.abs() < 1e-6, "{head}: {off}");
+    }
+}
+
 /// Its head turns by a fifth of a radian in three steps: as the same outline made rigid, the more so the stiffer it is.
 #[test]
 fn a_rod_of_any_stiffness_goes_with_the_body_it_is_clamped_to() {

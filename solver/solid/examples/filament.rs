@@ -32,7 +32,7 @@ fn filament() -> Result<PlanarRod, Box<dyn Error>> {
         section_inertia: Along::Constant(0.0),
     };
     let bending = Flexure::passive(Along::Constant(1.0));
-    Ok(PlanarRod::new(PlanarProperties { rod, bending })?)
+    Ok(PlanarRod::new(PlanarProperties { rod, bending })?.clamped(End::Base))
 }
 
 /// Mean thrust over (across - along) omega (amplitude l)^2 of small motions: across y_t = -y_ssss.

@@ -2,8 +2,11 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
+use super::clamp::Element;
 use super::error::RodError;
-use super::kinematics::{Gradients, Kinematics, StrainKind, gradients, second_derivatives};
+use super::kinematics::{
+    Gradients, Kinematics, StrainKind, gradients, second_derivatives, strains,
+};
 use super::properties::{Flexure, RodProperties, positive};
 use crate::structure::{InnerPower, Structure, Tangents};
 
@@ -17,6 +20,8 @@ pub struct Rod<K, const N: usize, const S: usize> {
     laws: Vec<[Law; S]>,
     flexures: Vec<Flexure>,
     mass: DMatrix<f64>,
+    /// Whether base and tip are clamped.
+    pub(super) clamped: [bool; 2],
     /// Of a rod that is closed, the way from a place of it to the same one a period further (m).
     period: Option<SVector<f64, 3>>,
 }
@@ -106,7 +111,8 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
             }
             laws.push(of_element);
         }
-        Ok(Self { kinematics, knots, laws, flexures, mass, period: None })
+        let clamped = [false; 2];
+        Ok(Self { kinematics, knots, laws, flexures, mass, clamped, period: None })
     }
 
     /// The same rod, in which what only fixes the vectors across at the knots relaxes within a time (s): without mass nothing else
@@ -181,8 +187,19 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
         SVector::from(self.indices(element).map(|i| all[i]))
     }
 
-    fn length_of(&self, element: usize) -> f64 {
-        self.knots[element + 1] - self.knots[element]
+    /// Coordinates of an element with tangents of the length that they have at clamps.
+    pub(super) fn shaped(&self, all: &DVector<f64>, element: usize) -> [f64; N] {
+        self.element(element).shaped(&self.of_element(all, element).into())
+    }
+
+    pub(super) fn element(&self, element: usize) -> Element {
+        let last = self.laws.len() - 1;
+        let [base, tip] = self.clamped;
+        Element {
+            length: self.knots[element + 1] - self.knots[element],
+            clamped: [base && element == 0, tip && element == last],
+            dimension: K::DIMENSION,
+        }
     }
 
     fn activity(&self, law: &Law, time: f64) -> Activity {
@@ -201,7 +218,7 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
         time: f64,
     ) -> Instant<N, S> {
         let at = self.of_element(coordinates, element);
-        let gradients = gradients(&self.kinematics, self.length_of(element), &at);
+        let gradients = gradients(&self.kinematics, &self.element(element), &at);
         let rates = gradients.first * self.rates_of_element(velocities, element);
         let stresses = SVector::from_fn(|i, _| {
             let law = &self.laws[element][i];
@@ -215,7 +232,7 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
     /// Strains of an element.
     fn strains(&self, coordinates: &DVector<f64>, element: usize) -> [f64; S] {
         let at: [f64; N] = self.of_element(coordinates, element).into();
-        self.kinematics.strains(self.length_of(element), &at)
+        strains(&self.kinematics, &self.element(element), &at)
     }
 
     /// Largest |stretch| at a point where it is taken.
@@ -274,7 +291,7 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Structure for Rod<K, N
                 self.instant(element, coordinates, velocities, time);
             let at = self.of_element(coordinates, element);
             let speeds = self.rates_of_element(velocities, element);
-            let second = second_derivatives(&self.kinematics, self.length_of(element), &at);
+            let second = second_derivatives(&self.kinematics, &self.element(element), &at);
             let (mut by_place, mut by_speed) =
                 (SMatrix::<f64, N, N>::zeros(), SMatrix::<f64, N, N>::zeros());
             for (i, law) in laws.iter().enumerate() {

@@ -28,7 +28,7 @@ pub enum Support {
     Free,
     /// Its place is given.
     Hinged,
-    /// Its place and its direction are given.
+    /// Its place and its direction are given, of a rod that is [`Rod::clamped`] there.
     Clamped,
 }
 
@@ -53,5 +53,13 @@ impl<K: Kinematics<N, S>, const N: usize, const S: usize> Rod<K, N, S> {
             End::Base => 0,
             End::Tip => Self::STRIDE * (self.knots().len() - 1),
         }
+    }
+
+    /// The same rod, clamped at an end: of its tangent there the direction is held, and the length follows from the stretch of
+    /// its element. A rod that is closed has no end.
+    #[must_use]
+    pub fn clamped(mut self, end: End) -> Self {
+        self.clamped[end as usize] = !self.is_closed();
+        self
     }
 }

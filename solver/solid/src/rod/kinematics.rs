@@ -3,6 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 use num_dual::{Dual64, DualNum, HyperDual64};
 
+use super::clamp::Element;
+
 /// Reals and dual numbers over them, so that derivatives of strains are exact.
 pub trait Number: DualNum<Primitive = f64> + Copy {}
 
@@ -52,16 +54,25 @@ pub struct Gradients<const N: usize, const S: usize> {
 /// Derivatives by pairs of coordinates, of each strain.
 pub type SecondDerivatives<const N: usize, const S: usize> = [SMatrix<f64, N, N>; S];
 
+/// The strains of an element, with its tangents as clamps have them.
+pub fn strains<K: Kinematics<N, S>, D: Number, const N: usize, const S: usize>(
+    kinematics: &K,
+    element: &Element,
+    coordinates: &[D; N],
+) -> [D; S] {
+    kinematics.strains(element.length, &element.shaped(coordinates))
+}
+
 /// Strains with their first derivatives.
 pub fn gradients<K: Kinematics<N, S>, const N: usize, const S: usize>(
     kinematics: &K,
-    length: f64,
+    element: &Element,
     coordinates: &SVector<f64, N>,
 ) -> Gradients<N, S> {
     let mut result = Gradients { values: SVector::zeros(), first: SMatrix::zeros() };
     for j in 0..N {
         let at = std::array::from_fn(|i| Dual64::new(coordinates[i], unit(i == j)));
-        for (i, strain) in kinematics.strains(length, &at).iter().enumerate() {
+        for (i, strain) in strains(kinematics, element, &at).iter().enumerate() {
             result.values[i] = strain.re;
             result.first[(i, j)] = strain.eps;
         }
@@ -72,7 +83,7 @@ pub fn gradients<K: Kinematics<N, S>, const N: usize, const S: usize>(
 /// The second derivatives of strains.
 pub fn second_derivatives<K: Kinematics<N, S>, const N: usize, const S: usize>(
     kinematics: &K,
-    length: f64,
+    element: &Element,
     coordinates: &SVector<f64, N>,
 ) -> SecondDerivatives<N, S> {
     let mut second = [SMatrix::zeros(); S];
@@ -81,7 +92,7 @@ pub fn second_derivatives<K: Kinematics<N, S>, const N: usize, const S: usize>(
             let at = std::array::from_fn(|i| {
                 HyperDual64::new(coordinates[i], unit(i == j), unit(i == k), 0.0)
             });
-            for (i, strain) in kinematics.strains(length, &at).iter().enumerate() {
+            for (i, strain) in strains(kinematics, element, &at).iter().enumerate() {
                 second[i][(j, k)] = strain.eps1eps2;
                 second[i][(k, j)] = strain.eps1eps2;
             }

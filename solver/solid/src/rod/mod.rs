@@ -8,6 +8,7 @@
 
 mod along;
 mod center;
+mod clamp;
 mod elastic;
 mod end;
 mod error;

@@ -2,7 +2,9 @@
 
 use std::fmt;
 
+use super::elastic::Rod;
 use super::end::{End, Support};
+use super::kinematics::Kinematics;
 use crate::structure::Held;
 
 /// How an end is held, and its pose P at a time (s).
@@ -39,6 +41,15 @@ impl<P> Supports<P> {
         pose: impl Fn(f64) -> P + Send + Sync + 'static,
     ) -> Self {
         Self(vec![HeldEnd { end, support, pose: Box::new(pose) }])
+    }
+
+    /// A rod that is clamped where these clamp it.
+    pub(super) fn clamp<K: Kinematics<N, S>, const N: usize, const S: usize>(
+        &self,
+        rod: Rod<K, N, S>,
+    ) -> Rod<K, N, S> {
+        let clamped = self.0.iter().filter(|held| held.support == Support::Clamped);
+        clamped.fold(rod, |rod, held| rod.clamped(held.end))
     }
 
     /// The coordinates that are given at a time (s), ascending.

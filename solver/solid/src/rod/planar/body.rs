@@ -30,6 +30,7 @@ impl PlanarRodBody {
     /// A rod that is straight at the start, from a base (m, rad) on, with what holds it.
     #[must_use]
     pub fn new(rod: PlanarRod, base: EndPose, supports: Supports<EndPose>) -> Self {
+        let rod = supports.clamp(rod);
         let initial = rod.straight(base.place, base.angle);
         Self { rod, base, initial, supports, weight: None, ends: Vec::new() }
     }

@@ -137,14 +137,14 @@ impl PlanarRod {
     pub fn place(&self, coordinates: &DVector<f64>, along: f64) -> Vector2<f64> {
         let at = self.locate(along);
         let basis = Hermite::at(at.xi, at.length);
-        Vector2::from(vector(&basis.place, &self.of_element(coordinates, at.element).into()))
+        Vector2::from(vector(&basis.place, &self.shaped(coordinates, at.element)))
     }
 
     /// Curvature (1/m), positive where the rod turns counter-clockwise, at a distance along it (m).
     #[must_use]
     pub fn curvature(&self, coordinates: &DVector<f64>, along: f64) -> f64 {
         let at = self.locate(along);
-        let of_element = self.of_element(coordinates, at.element).into();
+        let of_element = self.shaped(coordinates, at.element);
         // At the two Gauss points the curvature of a cubic is right to one order more than elsewhere
         let [first, second] = TWO_POINTS.map(|xi| curvature(xi, at.length, &of_element));
         let [from, to] = TWO_POINTS;

@@ -4,6 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{DVector, SMatrix, SVector, Vector2};
 
+use num_dual::Dual64;
+
 use super::planar_rod::{COORDINATES, PlanarRod};
 use crate::rod::hermite::Hermite;
 
@@ -55,7 +57,7 @@ impl PlanarRod {
     pub fn section(&self, coordinates: &DVector<f64>, along: f64) -> SectionRows {
         let at = self.locate(along);
         let basis = Hermite::at(at.xi, at.length);
-        let of_element = self.of_element(coordinates, at.element);
+        let of_element = SVector::from(self.shaped(coordinates, at.element));
         let (mut place, mut tangent) = (Vector2::zeros(), Vector2::zeros());
         for knot in 0..4 {
             let of_knot = of_element.fixed_rows::<2>(2 * knot);
@@ -70,6 +72,7 @@ impl PlanarRod {
             weights[(2, 2 * knot)] = basis.first[knot] * nx;
             weights[(2, 2 * knot + 1)] = basis.first[knot] * ny;
         }
+        let weights = self.by_coordinates(coordinates, at.element, weights);
         SectionRows { place, first: at.element * Self::STRIDE, weights }
     }
 
@@ -78,7 +81,7 @@ impl PlanarRod {
     pub fn surface(&self, coordinates: &DVector<f64>, point: SectionPoint) -> SurfaceRows {
         let at = self.locate(point.along);
         let basis = Hermite::at(at.xi, at.length);
-        let of_element = self.of_element(coordinates, at.element);
+        let of_element = SVector::from(self.shaped(coordinates, at.element));
         let along = |weights: &[f64; 4]| {
             let mut sum = Vector2::zeros();
             for (knot, weight) in weights.iter().enumerate() {
@@ -102,8 +105,29 @@ impl PlanarRod {
         SurfaceRows {
             place: along(&basis.place) + Vector2::new(-ty, tx) * point.offset,
             first: at.element * Self::STRIDE,
-            weights,
+            weights: self.by_coordinates(coordinates, at.element, weights),
         }
+    }
+
+    /// Weights on the rates of the coordinates of an element, from those with tangents of the length that they have at clamps.
+    fn by_coordinates<const R: usize>(
+        &self,
+        coordinates: &DVector<f64>,
+        element: usize,
+        weights: SMatrix<f64, R, COORDINATES>,
+    ) -> SMatrix<f64, R, COORDINATES> {
+        let (element, values) = (self.element(element), self.of_element(coordinates, element));
+        if !element.is_clamped() {
+            return weights;
+        }
+        let mut derivatives = SMatrix::<f64, COORDINATES, COORDINATES>::zeros();
+        for j in 0..COORDINATES {
+            let dual = std::array::from_fn(|i| Dual64::new(values[i], f64::from(u8::from(i == j))));
+            for (i, value) in element.shaped::<_, COORDINATES>(&dual).iter().enumerate() {
+                derivatives[(i, j)] = value.eps;
+            }
+        }
+        weights * derivatives
     }
 }
 

@@ -29,6 +29,7 @@ impl SpatialRodBody {
     /// A rod that is straight at the start, from a base on, with what holds it.
     #[must_use]
     pub fn new(rod: SpatialRod, base: SpatialEndPose, supports: Supports<SpatialEndPose>) -> Self {
+        let rod = supports.clamp(rod);
         let initial = rod.straight(base.place, base.rotation);
         Self { rod, base, initial, supports, weight: None, ends: Vec::new() }
     }

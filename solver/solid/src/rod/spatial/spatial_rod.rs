@@ -181,7 +181,7 @@ impl SpatialRod {
     pub fn place(&self, coordinates: &DVector<f64>, along: f64) -> Vector3<f64> {
         let at = self.locate(along);
         let basis = Hermite::at(at.xi, at.length);
-        Vector3::from(vector(&basis.place, &self.of_element(coordinates, at.element).into()))
+        Vector3::from(vector(&basis.place, &self.shaped(coordinates, at.element)))
     }
 
     /// Rates of turning per length about d1, d2 and t (1/m) at a distance along the rod (m): the linear functions of
@@ -189,7 +189,7 @@ impl SpatialRod {
     #[must_use]
     pub fn turning(&self, coordinates: &DVector<f64>, along: f64) -> Vector3<f64> {
         let at = self.locate(along);
-        let points = even_turning(at.length, &self.of_element(coordinates, at.element).into());
+        let points = even_turning(at.length, &self.shaped(coordinates, at.element));
         let mut value = Vector3::zeros();
         for ((xi, weight), here) in GAUSS.iter().zip(GAUSS_WEIGHTS).zip(points) {
             // Mean, and 12 times the first moment

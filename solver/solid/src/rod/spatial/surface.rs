@@ -46,11 +46,13 @@ impl SpatialRod {
     ) -> SpatialSurfaceRows {
         let at = self.locate(point.along);
         let basis = Hermite::at(at.xi, at.length);
-        let values = self.of_element(coordinates, at.element);
+        let (element, values) =
+            (self.element(at.element), self.of_element(coordinates, at.element));
         let (mut place, mut weights) = (Vector3::zeros(), SMatrix::zeros());
         for j in 0..COORDINATES {
             let dual =
                 std::array::from_fn(|i| Dual64::new(values[i], if i == j { 1.0 } else { 0.0 }));
+            let dual = element.shaped(&dual);
             for (axis, value) in material(&basis, at.xi, &dual, point.offset).iter().enumerate() {
                 place[axis] = value.re;
                 weights[(axis, j)] = value.eps;
@@ -68,7 +70,7 @@ impl SpatialRod {
     ) -> Vector3<f64> {
         let at = self.locate(point.along);
         let basis = Hermite::at(at.xi, at.length);
-        let values = self.of_element(coordinates, at.element).into();
+        let values = self.shaped(coordinates, at.element);
         Vector3::from(material(&basis, at.xi, &values, point.offset))
     }
 }

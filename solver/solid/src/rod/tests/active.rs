@@ -3,13 +3,14 @@
 use super::common::{along_x, assert_near, at_base, at_rest, bending, unit, with_moment};
 use crate::dry::{DrySystem, Level, Motion};
 use crate::rod::{
-    Along, Field, Flexure, LineForce, PlanarRod, Resistance, RodProperties, Support, Varying,
+    Along, End, Field, Flexure, LineForce, PlanarRod, Resistance, RodProperties, Support, Varying,
 };
 use crate::structure::Structure;
 
 #[test]
 fn an_active_moment_bends_a_free_rod_into_a_circle() {
-    let rod = bending(unit(8), with_moment(Field::Steady(Along::Constant(2.0))));
+    let moment = with_moment(Field::Steady(Along::Constant(2.0)));
+    let rod = bending(unit(8), moment).clamped(End::Base);
     let system = DrySystem::new(&rod, vec![], |_| at_base(&rod, Support::Clamped));
     let q = system.equilibrium(along_x(&rod), [0.0, 1.0], 1).expect("there is an equilibrium");
     let tip = rod.place(&q, 1.0);
@@ -22,7 +23,7 @@ fn an_active_moment_bends_a_free_rod_into_a_circle() {
 fn a_rest_curvature_is_taken_without_energy() {
     let rest = Field::Steady(Along::function(|s| 3.0 * s));
     let flexure = Flexure { rest, ..Flexure::passive(Along::Constant(1.0)) };
-    let rod = bending(unit(10), flexure);
+    let rod = bending(unit(10), flexure).clamped(End::Base);
     let system = DrySystem::new(&rod, vec![], |_| at_base(&rod, Support::Clamped));
     let q = system.equilibrium(along_x(&rod), [0.0, 1.0], 2).expect("there is an equilibrium");
     let curved = rod.curved(nalgebra::Vector2::zeros(), 0.0, &Along::function(|s| 3.0 * s));

@@ -25,6 +25,11 @@ pub fn planar(rod: RodProperties) -> PlanarRod {
     bending(rod, Flexure::passive(Along::Constant(1.0)))
 }
 
+/// The same, clamped at its base.
+pub fn cantilever(rod: RodProperties) -> PlanarRod {
+    planar(rod).clamped(End::Base)
+}
+
 /// A planar rod.
 pub fn bending(rod: RodProperties, bending: Flexure) -> PlanarRod {
     PlanarRod::new(PlanarProperties { rod, bending }).expect("there is such a rod")

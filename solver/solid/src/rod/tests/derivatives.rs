@@ -3,11 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::common::{along_x, bending, planar, scatter, unit};
-use crate::rod::{Along, Field, Flexure, PlanarRod, Resistance, RodProperties, Varying};
+use crate::rod::{Along, End, Field, Flexure, PlanarRod, Resistance, RodProperties, Varying};
 use crate::structure::{Load, Structure};
 
 /// A rod with all that a planar one can have.
-fn full() -> PlanarRod {
+fn whole() -> PlanarRod {
     let rod = RodProperties { damping: 0.3, stretching: 50.0, ..unit(3) };
     bending(
         rod,
@@ -17,6 +17,11 @@ fn full() -> PlanarRod {
             moment: Field::in_time(|s, t| Varying { value: (s - t).cos(), rate: (s - t).sin() }),
         },
     )
+}
+
+/// Free, and clamped at its ends.
+fn full() -> [PlanarRod; 3] {
+    [whole(), whole().clamped(End::Base), whole().clamped(End::Base).clamped(End::Tip)]
 }
 
 /// Derivative of a vector by another one, by central differences.
@@ -44,12 +49,13 @@ pub fn assert_same(exact: &DMatrix<f64>, difference: &DMatrix<f64>) {
 
 #[test]
 fn tangents_are_derivatives_of_forces() {
-    let rod = full();
-    let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.0) * 0.2;
-    let v = scatter(rod.n_coordinates(), 1.0);
-    let tangents = rod.tangents(&q, &v, 0.7);
-    assert_same(&tangents.stiffness, &jacobian(&q, |q| rod.forces(q, &v, 0.7)));
-    assert_same(&tangents.damping, &jacobian(&v, |v| rod.forces(&q, v, 0.7)));
+    for rod in full() {
+        let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.0) * 0.2;
+        let v = scatter(rod.n_coordinates(), 1.0);
+        let tangents = rod.tangents(&q, &v, 0.7);
+        assert_same(&tangents.stiffness, &jacobian(&q, |q| rod.forces(q, &v, 0.7)));
+        assert_same(&tangents.damping, &jacobian(&v, |v| rod.forces(&q, v, 0.7)));
+    }
 }
 
 #[test]
@@ -65,23 +71,31 @@ fn tangents_of_drag_are_its_derivatives() {
 
 #[test]
 fn passive_forces_are_the_gradient_of_the_energy() {
-    let rod = planar(RodProperties { stretching: 50.0, ..unit(3) });
-    let q = along_x(&rod) + scatter(rod.n_coordinates(), 4.0) * 0.2;
-    let energy = |q: &DVector<f64>| DVector::from_element(1, rod.elastic_energy(q, 0.0));
-    let forces = rod.forces(&q, &DVector::zeros(q.len()), 0.0);
-    assert_same(&DMatrix::from_rows(&[forces.transpose()]), &jacobian(&q, energy));
+    let soft = || RodProperties { stretching: 50.0, ..unit(3) };
+    let single = RodProperties { elements: 1, ..soft() };
+    for rod in [
+        planar(soft()),
+        planar(soft()).clamped(End::Tip),
+        planar(single).clamped(End::Base).clamped(End::Tip),
+    ] {
+        let q = along_x(&rod) + scatter(rod.n_coordinates(), 4.0) * 0.2;
+        let energy = |q: &DVector<f64>| DVector::from_element(1, rod.elastic_energy(q, 0.0));
+        let forces = rod.forces(&q, &DVector::zeros(q.len()), 0.0);
+        assert_same(&DMatrix::from_rows(&[forces.transpose()]), &jacobian(&q, energy));
+    }
 }
 
 #[test]
 fn a_rigid_motion_costs_no_energy() {
-    let rod = full();
-    let q = along_x(&rod) + scatter(rod.n_coordinates(), 5.0) * 0.2;
-    let (sin, cos) = 1.1_f64.sin_cos();
-    let turned = DVector::from_fn(q.len(), |i, _| {
-        let (x, y) = (q[i - i % 2], q[i - i % 2 + 1]);
-        let place = if i % 4 < 2 { 3.0 } else { 0.0 };
-        place + if i % 2 == 0 { cos * x - sin * y } else { sin * x + cos * y }
-    });
-    let (before, after) = (rod.elastic_energy(&q, 0.2), rod.elastic_energy(&turned, 0.2));
-    assert!((before - after).abs() < 1e-12 * before, "{before} became {after}");
+    for rod in full() {
+        let q = along_x(&rod) + scatter(rod.n_coordinates(), 5.0) * 0.2;
+        let (sin, cos) = 1.1_f64.sin_cos();
+        let turned = DVector::from_fn(q.len(), |i, _| {
+            let (x, y) = (q[i - i % 2], q[i - i % 2 + 1]);
+            let place = if i % 4 < 2 { 3.0 } else { 0.0 };
+            place + if i % 2 == 0 { cos * x - sin * y } else { sin * x + cos * y }
+        });
+        let (before, after) = (rod.elastic_energy(&q, 0.2), rod.elastic_energy(&turned, 0.2));
+        assert!((before - after).abs() < 1e-12 * before, "{before} became {after}");
+    }
 }

@@ -6,7 +6,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector, Vector2};
 
-use super::common::{along_x, assert_near, at_rest, planar, unit};
+use super::common::{along_x, assert_near, at_rest, cantilever, unit};
 use crate::dry::{DrySystem, Motion};
 use crate::rod::{
     Along, Axes, End, EndLoad, EndPose, LoadedEnd, PlanarRodBody, Resistance, RodProperties,
@@ -30,7 +30,7 @@ struct Follower {
 
 impl Follower {
     fn new(elements: usize, force: f64) -> Self {
-        let rod = planar(RodProperties { mass: Along::Constant(0.0), ..unit(elements) });
+        let rod = cantilever(RodProperties { mass: Along::Constant(0.0), ..unit(elements) });
         let drag = Resistance::new(&rod, 0.5, 1.0);
         let load = move |_| EndLoad { force: Vector2::new(-force, 0.0), moment: 0.0 };
         let tip = LoadedEnd { end: End::Tip, axes: Axes::OfSection, load: Box::new(load) };

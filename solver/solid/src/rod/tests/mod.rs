@@ -2,6 +2,7 @@
 
 mod active;
 mod body;
+mod clamped;
 mod closed;
 mod common;
 mod derivatives;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::common::{along_x, assert_near, at_base, at_rest, planar, unit};
+use super::common::{along_x, assert_near, at_base, at_rest, cantilever, planar, unit};
 use crate::dry::{DrySystem, Level, Motion};
 use crate::rod::{Along, LineForce, PlanarRod, RodProperties, Support};
 use crate::structure::Structure;
@@ -43,7 +43,7 @@ fn modes(rod: &PlanarRod, held: usize) -> Vec<Mode> {
 
 #[test]
 fn a_cantilever_has_its_frequencies() {
-    let rod = planar(unit(10));
+    let rod = cantilever(unit(10));
     for (mode, root) in modes(&rod, 4).iter().zip(CANTILEVER) {
         assert_near(mode.frequency, root * root, 1e-3);
     }
@@ -94,7 +94,7 @@ fn after<'a>(system: &'a DrySystem<'a>, start: Level, step: f64, duration: f64) 
 
 #[test]
 fn steps_are_of_order_two() {
-    let rod = planar(unit(4));
+    let rod = cantilever(unit(4));
     let FirstMode { start, frequency, height } = first_mode(&rod);
     let system = DrySystem::new(&rod, vec![], |_| at_base(&rod, Support::Clamped));
     // A quarter of a period, where errors of the phase are largest
@@ -110,7 +110,7 @@ fn steps_are_of_order_two() {
 #[test]
 fn damping_lets_a_mode_decay_as_it_should() {
     let damping = 0.02;
-    let rod = planar(RodProperties { damping, ..unit(4) });
+    let rod = cantilever(RodProperties { damping, ..unit(4) });
     let FirstMode { start, frequency, height } = first_mode(&rod);
     let system = DrySystem::new(&rod, vec![], |_| at_base(&rod, Support::Clamped));
     // x'' + damping frequency^2 x' + frequency^2 x = 0
@@ -146,7 +146,7 @@ fn loss(rod: &PlanarRod, step: f64) -> [f64; 2] {
 
 #[test]
 fn energy_is_lost_to_damping_and_to_the_order_of_the_stepper() {
-    let rod = planar(RodProperties { damping: 0.02, ..unit(4) });
+    let rod = cantilever(RodProperties { damping: 0.02, ..unit(4) });
     let [coarse, fine] = [0.01, 0.005].map(|step| loss(&rod, step));
     assert!(fine[1] > 0.15, "damping takes {} only", fine[1]);
     assert!(fine[0].abs() < 2e-3, "{:.1e} of the energy is not accounted for", fine[0]);
@@ -157,7 +157,7 @@ fn energy_is_lost_to_damping_and_to_the_order_of_the_stepper() {
 #[test]
 fn energy_balances_in_each_step_but_for_the_loss_of_the_scheme() {
     // Not stiff, so that the stretch of a straight rod that bends is nothing beside
-    let rod = planar(RodProperties { damping: 0.02, stretching: 10.0, ..unit(4) });
+    let rod = cantilever(RodProperties { damping: 0.02, stretching: 10.0, ..unit(4) });
     let FirstMode { start, frequency, .. } = first_mode(&rod);
     let scale = rod.elastic_energy(&start.coordinates, 0.0);
     let system = DrySystem::new(&rod, vec![], |_| at_base(&rod, Support::Clamped));

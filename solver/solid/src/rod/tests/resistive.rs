@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::common::{along_x, assert_near, at_rest, planar, unit};
+use super::common::{along_x, assert_near, at_rest, cantilever, unit};
 use crate::dry::{DrySystem, Motion};
 use crate::rod::{End, EndPose, PlanarRod, Resistance, RodProperties, Support};
 use crate::structure::{Load, Structure};
@@ -53,7 +53,7 @@ const FILAMENTS: [Filament; 4] = [
 
 /// A filament without mass.
 fn filament(elements: usize) -> PlanarRod {
-    planar(RodProperties { mass: crate::rod::Along::Constant(0.0), ..unit(elements) })
+    cantilever(RodProperties { mass: crate::rod::Along::Constant(0.0), ..unit(elements) })
 }
 
 /// Mean thrust of the linear equations (K + i omega C) y = 0 with the base given, per square of the amplitude.

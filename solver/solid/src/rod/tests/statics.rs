@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 
-use super::common::{along_x, assert_near, at_base, at_rest, planar, unit};
+use super::common::{along_x, assert_near, at_base, at_rest, cantilever, unit};
 use crate::dry::{DrySystem, Scaled};
 use crate::rod::{End, LineForce, PlanarRod, Support};
 
@@ -48,14 +48,14 @@ fn bent(rod: &PlanarRod, elastica: &Elastica) -> DVector<f64> {
 
 /// How far the tip is from where it should be.
 fn error(elements: usize, elastica: &Elastica) -> f64 {
-    let rod = planar(unit(elements));
+    let rod = cantilever(unit(elements));
     let tip = rod.place(&bent(&rod, elastica), 1.0);
     (tip.x - elastica.tip[0]).hypot(tip.y - elastica.tip[1])
 }
 
 #[test]
 fn a_cantilever_bends_by_the_linear_formula_under_a_small_load() {
-    let rod = planar(unit(4));
+    let rod = cantilever(unit(4));
     let small = Elastica { at_tip: 1e-3, weight: 0.0, tip: [1.0, -1e-3 / 3.0], bend: -1e-3 };
     let q = bent(&rod, &small);
     assert_near(rod.place(&q, 1.0).y, small.tip[1], 1e-5);
@@ -65,7 +65,7 @@ fn a_cantilever_bends_by_the_linear_formula_under_a_small_load() {
 #[test]
 fn the_elastica_is_met_to_a_thousandth_by_eight_elements() {
     for elastica in [UNDER_A_FORCE, HEAVY, HEAVIER] {
-        let rod = planar(unit(8));
+        let rod = cantilever(unit(8));
         let q = bent(&rod, &elastica);
         let error = error(8, &elastica);
         assert!(error < 1e-3, "the tip is off by {error:.1e}");
@@ -85,7 +85,7 @@ fn places_converge_with_order_four_in_the_elements() {
 
 #[test]
 fn the_clamp_carries_the_force_and_its_moment() {
-    let rod = planar(unit(16));
+    let rod = cantilever(unit(16));
     let q = bent(&rod, &UNDER_A_FORCE);
     let load = LineForce::new(&rod, &[0.0, 0.0], &[0.0, -10.0]);
     let system = DrySystem::new(&rod, vec![&load], |_| at_base(&rod, Support::Clamped));
@@ -97,7 +97,7 @@ fn the_clamp_carries_the_force_and_its_moment() {
 
 #[test]
 fn a_column_buckles_under_eulers_force() {
-    let rod = planar(unit(8));
+    let rod = cantilever(unit(8));
     let eulers = std::f64::consts::PI.powi(2) / 4.0;
     let is_stable = |force: f64| {
         let load = LineForce::new(&rod, &[0.0, 0.0], &[-force, 0.0]);

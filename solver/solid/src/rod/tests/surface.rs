@@ -4,26 +4,27 @@ use std::f64::consts::PI;
 
 use nalgebra::{DVector, Vector2};
 
-use super::common::{along_x, assert_near, planar, scatter, unit};
-use crate::rod::{Along, RoundedStrip, SectionPoint};
+use super::common::{along_x, assert_near, cantilever, planar, scatter, unit};
+use crate::rod::{Along, End, RoundedStrip, SectionPoint};
 use crate::structure::Structure;
 
 #[test]
 fn rows_are_derivatives_of_places() {
-    let rod = planar(unit(3));
-    let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.5) * 0.2;
-    for (along, offset) in [(0.0, 0.1), (0.21, -0.3), (0.5, 0.0), (1.0, 0.2)] {
-        let point = SectionPoint { along, offset };
-        let rows = rod.surface(&q, point);
-        for i in 0..8 {
-            let moved = |by: f64| {
-                let mut q = q.clone();
-                q[rows.first + i] += by;
-                rod.surface(&q, point).place
-            };
-            let difference = (moved(1e-6) - moved(-1e-6)) / 2e-6;
-            let error = (difference - rows.weights.column(i)).norm();
-            assert!(error < 1e-8, "weight {i} at {along} is off by {error:.1e}");
+    for rod in [planar(unit(3)), cantilever(unit(3)), cantilever(unit(3)).clamped(End::Tip)] {
+        let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.5) * 0.2;
+        for (along, offset) in [(0.0, 0.1), (0.21, -0.3), (0.5, 0.0), (1.0, 0.2)] {
+            let point = SectionPoint { along, offset };
+            let rows = rod.surface(&q, point);
+            for i in 0..8 {
+                let moved = |by: f64| {
+                    let mut q = q.clone();
+                    q[rows.first + i] += by;
+                    rod.surface(&q, point).place
+                };
+                let difference = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                let error = (difference - rows.weights.column(i)).norm();
+                assert!(error < 1e-8, "weight {i} at {along} is off by {error:.1e}");
+            }
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Numbers along a rod that planar ones and those in space have in common.
 
 use crate::case::{
-    Activation, Body, Case, EndFrame, FlowModel, RestShape, RodEnd, RodSpec, Stroke, TimeSettings,
+    Activation, Body, Case, EndFrame, FlowModel, Hold, RestShape, RodEnd, RodSpec, Stroke,
+    TimeSettings,
 };
 use crate::rod::{Along, Axes, End, Field, Varying};
 use crate::run::RunError;
@@ -87,6 +88,12 @@ fn wave(
         let factor = envelope.at(along);
         Varying { value: factor * value, rate: factor * rate }
     })
+}
+
+/// Whether its head is clamped: in the laboratory, turned in time, or to another body.
+pub fn is_clamped(body: &Body) -> bool {
+    let hold = body.attached.as_ref().map(|attached| &attached.hold);
+    matches!(hold, Some(Hold::Clamped | Hold::Angle(_)))
 }
 
 /// An end by its key.

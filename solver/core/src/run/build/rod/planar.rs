@@ -6,7 +6,9 @@ use std::sync::Arc;
 use alewife_mesh::Profile;
 use nalgebra::{Rotation2, Vector2};
 
-use super::laws::{ENDS, axes, density, end, refused, steady_rest, stiff_enough, with_wave};
+use super::laws::{
+    ENDS, axes, density, end, is_clamped, refused, steady_rest, stiff_enough, with_wave,
+};
 use crate::case::{self, AlongBody, Body, Case, EndFrame, EndLoadSpec, EndMoment, Hold, RodSpec};
 use crate::gait::FlexibleShape;
 use crate::rod::{
@@ -30,6 +32,7 @@ pub fn shape(case: &Case, body: &Body, spec: &RodSpec) -> Result<FlexibleShape, 
         PlanarRod::new(of_length(profile.length()))
     };
     let rod = rod.map_err(|error| refuse(&error.to_string()))?;
+    let rod = if is_clamped(body) { rod.clamped(End::Base) } else { rod };
     // The head is at the right, from where the rod goes on towards -x
     let nose = outline.evaluate(0.0)[0].x;
     let base = EndPose { place: Vector2::new(nose, 0.0), angle: PI, ..EndPose::default() };

@@ -9,7 +9,8 @@ use alewife_mesh::spatial::{SectionHeight, SectionPoint};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::laws::{
-    ENDS, axes, density, end, longest_step, refused, steady_rest, stiff_enough, with_wave,
+    ENDS, axes, density, end, is_clamped, longest_step, refused, steady_rest, stiff_enough,
+    with_wave,
 };
 use crate::case::{
     self, Activation, AlongBody, Body, Case, EndFrame, EndLoadSpec, EndMoment, Hold, RodSpec,
@@ -54,6 +55,7 @@ pub fn shape(case: &Case, body: &Body, spec: &RodSpec) -> Result<FlexibleSurface
     let material = Material { case, body, spec, sizes: Sizes::new(&profile, height) };
     let rod = SpatialRod::new(material.properties()).map_err(|error| refuse(&error.to_string()))?;
     let rod = rod.with_relaxation(longest_step(case).unwrap_or_default());
+    let rod = if is_clamped(body) { rod.clamped(End::Base) } else { rod };
     let nose = sections.point(SectionPoint { along: 0.0, around: 0.0 }).x;
     let base = SpatialEndPose {
         place: Vector3::new(nose, 0.0, 0.0),

@@ -15,7 +15,7 @@ pub(super) const REST: [f64; 2] = [6.0, 3.0];
 /// A rod whose rest shape is a helix with d1 along its normal.
 pub(super) fn helix(elements: usize) -> SpatialRod {
     let rest = [0.0, REST[0], REST[1]].map(|value| Field::Steady(Along::Constant(value)));
-    at_rest_with(unit(elements), rest)
+    at_rest_with(unit(elements), rest).clamped(End::Base)
 }
 
 /// Coordinates of a helix with a curvature and a torsion from the origin.
@@ -47,7 +47,7 @@ pub(super) fn kirchhoff(
 
 #[test]
 fn a_helix_that_is_wound_and_pulled_needs_the_force_and_the_couple_of_kirchhoff() {
-    let rod = helix(20);
+    let rod = helix(20).clamped(End::Tip);
     let deformed = [5.0, 4.0];
     let exact = coordinates(&rod, deformed);
     let pose = tip(&exact);
@@ -67,7 +67,7 @@ fn a_helix_that_is_wound_and_pulled_needs_the_force_and_the_couple_of_kirchhoff(
 
 #[test]
 fn a_helix_is_wound_by_a_couple_into_another_one() {
-    let rod = helix(20);
+    let rod = helix(20).clamped(End::Tip);
     // The couple alone: twist times curvature = bend times torsion
     let curvature = 7.0;
     let torsion = TWISTING * REST[1] * curvature / (TWISTING * curvature - (curvature - REST[0]));
@@ -96,7 +96,7 @@ fn a_straight_rod_grows_into_the_helix_of_its_rest_shape() {
     let grows =
         |value: f64| Field::in_time(move |_, time| Varying { value: value * time, rate: value });
     let rest = [grows(0.0), grows(REST[0]), grows(REST[1])];
-    let rod = at_rest_with(unit(20), rest);
+    let rod = at_rest_with(unit(20), rest).clamped(End::Base);
     let system = DrySystem::new(&rod, vec![], |_| at_base(&rod, Support::Clamped));
     let straight = coordinates(&rod, [0.0, 0.0]);
     let q = system.equilibrium(straight, [0.0, 1.0], 6).expect("there is an equilibrium");

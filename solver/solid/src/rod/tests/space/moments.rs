@@ -16,8 +16,12 @@ fn loaded(rod: &SpatialRod, start: DVector<f64>, load: SpatialEndLoad) -> DVecto
     let grows =
         move |time: f64| SpatialEndLoad { force: load.force * time, moment: load.moment * time };
     let at_tip = SpatialLoadedEnd { end: End::Tip, axes: Axes::Fixed, load: Box::new(grows) };
-    let body = SpatialRodBody::new(rod.clone(), SpatialEndPose::default(), Supports::FREE)
-        .with_loaded_ends(vec![at_tip]);
+    let body = SpatialRodBody::new(
+        rod.clone().clamped(End::Base),
+        SpatialEndPose::default(),
+        Supports::FREE,
+    )
+    .with_loaded_ends(vec![at_tip]);
     let system = DrySystem::new(&body, vec![], |_| at_base(rod, Support::Clamped));
     system.equilibrium(start, [0.0, 1.0], STEPS).expect("there is an equilibrium")
 }

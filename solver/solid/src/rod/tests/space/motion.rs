@@ -7,14 +7,16 @@ use nalgebra::{DMatrix, DVector};
 use super::common::{TWISTING, along_x, at_base, straight};
 use crate::dry::{DrySystem, Motion};
 use crate::rod::tests::common::{assert_near, at_rest, unit};
-use crate::rod::{Along, RodProperties, SpatialRod, Support};
+use crate::rod::{Along, End, RodProperties, SpatialRod, Support};
 use crate::structure::Structure;
 
 /// Moment of inertia per length of sections.
 const INERTIA: f64 = 2e-4;
 
 fn with_inertia(elements: usize, damping: f64) -> SpatialRod {
-    straight(RodProperties { section_inertia: Along::Constant(INERTIA), damping, ..unit(elements) })
+    let inertia = Along::Constant(INERTIA);
+    straight(RodProperties { section_inertia: inertia, damping, ..unit(elements) })
+        .clamped(End::Base)
 }
 
 /// Frequencies (rad/s) of a cantilever, ascending.

@@ -4,7 +4,7 @@ use nalgebra::{DVector, Rotation3, Vector3};
 
 use super::common::{TWISTING, along_x, at_base, simple};
 use crate::dry::{DrySystem, Scaled};
-use crate::rod::tests::common::{assert_near, at_rest, planar, unit};
+use crate::rod::tests::common::{assert_near, at_rest, cantilever, unit};
 use crate::rod::{
     Along, End, EndPose, Flexure, LineForce, SpatialEndPose, SpatialProperties, SpatialRod, Support,
 };
@@ -15,7 +15,7 @@ fn bending_about_each_direction_has_its_stiffness() {
     let flexure = |stiffness: f64| Flexure::passive(Along::Constant(stiffness));
     let bending = [flexure(2.0), flexure(5.0)];
     let properties = SpatialProperties { rod: unit(4), bending, twisting: flexure(1.0) };
-    let rod = SpatialRod::new(properties).expect("there is such a rod");
+    let rod = SpatialRod::new(properties).expect("there is such a rod").clamped(End::Base);
     let load = LineForce::new(&rod, &[0.0; 3], &[0.0, 1e-3, 1e-3]);
     let system = DrySystem::new(&rod, vec![&load], |_| at_base(&rod, Support::Clamped));
     let q = system.equilibrium(along_x(&rod), [0.0, 1.0], 1).expect("there is an equilibrium");
@@ -27,7 +27,7 @@ fn bending_about_each_direction_has_its_stiffness() {
 
 #[test]
 fn a_rod_in_space_bends_as_one_in_the_plane() {
-    let (spatial, flat) = (simple(4), planar(unit(4)));
+    let (spatial, flat) = (simple(4).clamped(End::Base), cantilever(unit(4)));
     let weight = Vector3::new(0.0, -3.0, 4.0);
     let load = Scaled {
         load: LineForce::new(&spatial, weight.as_slice(), &[0.0; 3]),
@@ -64,7 +64,7 @@ fn twisted(rod: &SpatialRod, angle: f64) -> DVector<f64> {
 
 #[test]
 fn twist_has_the_torque_of_its_stiffness() {
-    let rod = simple(5);
+    let rod = simple(5).clamped(End::Base).clamped(End::Tip);
     for angle in [0.3, 3.0] {
         let q = twisted(&rod, angle);
         let system = DrySystem::new(&rod, vec![], |_| Vec::new());

@@ -12,20 +12,21 @@ use crate::structure::{BaseMotion, Flexible, Structure};
 
 #[test]
 fn rows_are_derivatives_of_places() {
-    let rod = simple(2);
-    let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.5) * 0.15;
-    for (along, offset) in [(0.0, [0.1, 0.0]), (0.21, [-0.1, 0.3]), (1.0, [0.2, 0.1])] {
-        let point = SpatialSectionPoint { along, offset };
-        let rows = rod.surface(&q, point);
-        for i in 0..18 {
-            let moved = |by: f64| {
-                let mut q = q.clone();
-                q[rows.first + i] += by;
-                rod.surface(&q, point).place
-            };
-            let difference = (moved(1e-6) - moved(-1e-6)) / 2e-6;
-            let error = (difference - rows.weights.column(i)).norm();
-            assert!(error < 1e-8, "weight {i} at {along} is off by {error:.1e}");
+    for rod in [simple(2), simple(2).clamped(End::Base)] {
+        let q = along_x(&rod) + scatter(rod.n_coordinates(), 0.5) * 0.15;
+        for (along, offset) in [(0.0, [0.1, 0.0]), (0.21, [-0.1, 0.3]), (1.0, [0.2, 0.1])] {
+            let point = SpatialSectionPoint { along, offset };
+            let rows = rod.surface(&q, point);
+            for i in 0..18 {
+                let moved = |by: f64| {
+                    let mut q = q.clone();
+                    q[rows.first + i] += by;
+                    rod.surface(&q, point).place
+                };
+                let difference = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                let error = (difference - rows.weights.column(i)).norm();
+                assert!(error < 1e-8, "weight {i} at {along} is off by {error:.1e}");
+            }
         }
     }
 }
