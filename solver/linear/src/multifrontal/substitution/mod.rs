@@ -91,6 +91,13 @@ pub(super) fn scatter(values: &[f64], slots: &[u32], target: &mut [f64]) {
     }
 }
 
+/// Whether there is nothing to eliminate: a load on bodies is zero but in the last fronts, and factors that are not read save
+/// half of a substitution.
+#[inline(always)]
+pub(super) fn is_zero(values: &[f64]) -> bool {
+    values.iter().all(|value| *value == 0.0)
+}
+
 /// b of the pivot rows becomes L11^-1 b, from b of the other rows L21 times that is subtracted.
 #[inline(always)]
 pub(super) fn forward(front: &FrontFactors<'_>, b: &mut [f64], local: &mut [f64]) {
@@ -98,6 +105,9 @@ pub(super) fn forward(front: &FrontFactors<'_>, b: &mut [f64], local: &mut [f64]
     let m = p + front.border_rows.len();
     let local = &mut local[..m];
     gather(local, b, front.pivot_rows);
+    if is_zero(&local[..p]) {
+        return;
+    }
     local[p..].fill(0.0);
     eliminate_down(front.l, m, 0..p, local);
     scatter(local, front.pivot_rows, b);

@@ -8,7 +8,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::{
-    Columns, FrontFactors, LocalValues, eliminate_down, eliminate_up, gather, scatter,
+    Columns, FrontFactors, LocalValues, eliminate_down, eliminate_up, gather, is_zero, scatter,
     subtract_columns, subtract_last_first,
 };
 
@@ -37,6 +37,9 @@ pub(super) fn forward(
     let m = p + front.border_rows.len();
     let local = &mut local[..m];
     gather(local, b, front.pivot_rows);
+    if is_zero(&local[..p]) {
+        return;
+    }
     local[p..].fill(0.0);
     for start in (0..p).step_by(BLOCK) {
         let end = (start + BLOCK).min(p);
