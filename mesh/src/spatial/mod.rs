@@ -20,6 +20,7 @@ mod region;
 mod sections;
 mod shape;
 mod size_field;
+mod small_sheets;
 mod surface;
 mod triangles;
 
@@ -29,7 +30,7 @@ pub use count::{estimate_cells, estimate_cells_inside};
 pub use curve::{Centreline, SpaceSpline};
 pub use domain::Domain;
 pub use gap_query::GapQuery;
-pub use generate::{generate, generate_inside};
+pub use generate::{Purpose, generate, generate_inside};
 pub use imported::Imported;
 pub use placement::{check_placement, cutting_planes};
 pub use region::Region;

@@ -33,12 +33,12 @@ const FACING: f64 = -0.5;
 /// The inside of a closed surface.
 #[derive(Debug, Clone)]
 pub struct Region {
-    mesh: TriangleMesh,
+    pub(super) mesh: TriangleMesh,
     names: Vec<String>,
     /// The side each triangle belongs to.
     sides: Vec<usize>,
     /// The sheet each triangle belongs to.
-    sheets: Vec<usize>,
+    pub(super) sheets: Vec<usize>,
     /// A point and the inward normal of each sheet that is flat.
     planes: Vec<Option<[Point<3>; 2]>>,
     nodes: BTreeMap<[u32; 2], Point<3>>,

@@ -4,6 +4,7 @@ mod cylinder;
 mod periodic;
 mod random;
 mod regions;
+mod solids;
 mod surfaces;
 mod tail;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::spatial::{NamedTriangles, Region, TriangleMesh, generate_inside};
+use alewife_mesh::spatial::{NamedTriangles, Purpose, Region, TriangleMesh, generate_inside};
 use alewife_mesh::{BoundaryId, Mesh, Point, Quality, Sizing, check_mesh};
 use nalgebra::{Rotation3, Vector3};
 
@@ -10,7 +10,7 @@ use super::assert_manifold;
 
 /// Triangles with the side of each.
 #[derive(Default)]
-struct Sides {
+pub(super) struct Sides {
     mesh: TriangleMesh,
     sides: Vec<usize>,
 }
@@ -27,7 +27,7 @@ impl Sides {
     }
 
     /// A prism on a polygon (counter-clockwise), its height cut into parts: bottom, top and wall.
-    fn prism(polygon: &[[f64; 2]], height: f64, parts: u32, fan: [f64; 2]) -> Self {
+    pub(super) fn prism(polygon: &[[f64; 2]], height: f64, parts: u32, fan: [f64; 2]) -> Self {
         let mut all = Self::default();
         let n = u32::try_from(polygon.len()).expect("few corners");
         for level in 0..=parts {
@@ -51,25 +51,25 @@ impl Sides {
         all
     }
 
-    fn turned(mut self, angles: [f64; 3]) -> Self {
+    pub(super) fn turned(mut self, angles: [f64; 3]) -> Self {
         let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);
         self.mesh.vertices.iter_mut().for_each(|at| *at = turn * *at);
         self
     }
 
-    fn region(self, smooth: f64) -> Region {
+    pub(super) fn region(self, smooth: f64) -> Region {
         let names = ["bottom", "top", "wall"].map(str::to_owned).to_vec();
         Region::new(self.mesh, names, self.sides, smooth).expect("it is closed")
     }
 }
 
-fn circle(n: u32) -> Vec<[f64; 2]> {
+pub(super) fn circle(n: u32) -> Vec<[f64; 2]> {
     (0..n).map(|i| 2.0 * PI * f64::from(i) / f64::from(n)).map(|t| [t.cos(), t.sin()]).collect()
 }
 
 fn meshed(region: &Region, size: f64) -> Mesh<3> {
     let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(size, 0.4, size) };
-    let mesh = generate_inside(region, &sizing).expect("it can be meshed");
+    let mesh = generate_inside(region, &sizing, Purpose::Flow).expect("it can be meshed");
     check_mesh(&mesh).expect("it keeps the invariants");
     println!("{} sheets, {}", region.n_sheets(), Quality::of(&mesh));
     assert_manifold(&mesh);

@@ -17,6 +17,7 @@ const TIE: f64 = 1e-9;
 pub struct Facets {
     patches: Vec<Patch>,
     tree: BoxTree<3>,
+    boxes: Vec<Bounds<3>>,
     is_curved: bool,
 }
 
@@ -74,7 +75,7 @@ impl Facets {
     pub(in crate::spatial) fn new(patches: Vec<Patch>) -> Self {
         let boxes: Vec<Bounds<3>> = patches.iter().map(Patch::bounds).collect();
         let is_curved = patches.iter().any(Patch::is_curved);
-        Self { tree: BoxTree::new(&boxes), patches, is_curved }
+        Self { tree: BoxTree::new(&boxes), patches, boxes, is_curved }
     }
 
     /// Whether edges on it may be bent.
@@ -92,6 +93,9 @@ impl Facets {
     fn nearest(&self, point: Point<3>, within: f64) -> Option<Nearest> {
         let mut nearest: Option<Nearest> = None;
         self.tree.visit_near(point, within, |index, reach| {
+            if self.boxes[index].squared_distance(&point) > *reach * *reach {
+                return false;
+            }
             let patch = &self.patches[index];
             let Some(on) = patch.nearest(&point, *reach) else { return false };
             let way = point - on.point;

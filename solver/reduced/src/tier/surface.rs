@@ -1,10 +1,10 @@
 //! The mesh of a soft body in space inside of a closed surface of triangles.
 
 use alewife_case::soft::SoftFile;
-use alewife_case::soft::solid::SoftSolid;
+use alewife_case::soft::solid::{SoftSolid, SolidOrder};
 use alewife_case::{Diagnostic, SurfaceCenter, SurfaceShape, unit_hint};
 use alewife_mesh::spatial::{
-    Region, SurfaceFault, TriangleMesh, estimate_cells_inside, generate_inside,
+    Purpose, Region, SurfaceFault, TriangleMesh, estimate_cells_inside, generate_inside,
 };
 use alewife_mesh::{Mesh, MeshError, Sizing};
 
@@ -38,11 +38,15 @@ pub(super) fn inside_of_surface(
     let region = Region::new(mesh, vec!["surface".to_owned()], vec![0; n], surface.smooth)
         .map_err(of_surface)?;
     let size = solid.size.unwrap_or(extent);
-    let sizing = Sizing { gap_layers: LAYERS, ..Sizing::graded(size, 0.5, size) };
+    let curved = solid.order == SolidOrder::Quadratic;
+    let sizing = Sizing { gap_layers: LAYERS, curved, ..Sizing::graded(size, 0.5, size) };
     let of_mesh = |error: MeshError| {
         let message = format!("the inside of the surface cannot be meshed: {error}");
         let help = "take a smaller solid.0.size, or round edges that are too sharp";
-        file.error(KEY, message, help)
+        let rounded = region.angle_without_small_sheets(size).map_or_else(String::new, |angle| {
+            format!("; smooth = {angle:?} rounds those of its smooth parts that are not larger than a few cells")
+        });
+        file.error(KEY, message, &(help.to_owned() + &rounded))
     };
     if estimate_cells_inside(&region, &sizing, MOST_CELLS).map_err(of_mesh)? > MOST_CELLS {
         let message =
@@ -51,5 +55,5 @@ pub(super) fn inside_of_surface(
         let help = help + &unit_hint(&region, "the cells", size, surface.scale);
         return Err(file.error("solid.0.size", message, &help));
     }
-    generate_inside(&region, &sizing).map_err(of_mesh)
+    generate_inside(&region, &sizing, Purpose::Solid).map_err(of_mesh)
 }

@@ -1,8 +1,11 @@
 //! `Improver`: a mesh with the surfaces and sizes it is to follow, and the quality of its cells.
 
+use std::collections::BTreeSet;
+
 use super::given_nodes::GivenNodes;
 use super::projections::Projections;
 use crate::Point;
+use crate::spatial::generate::purpose::Asked;
 use crate::spatial::generate::tetrahedra::Tetrahedra;
 use crate::spatial::generate::tetrahedra::measure::{
     EDGES, least_coefficient, least_sine, middle, volume_length,
@@ -90,10 +93,14 @@ pub struct Improver<'a> {
     pub sizes: &'a SizeField,
     /// The surfaces.
     pub geometry: &'a Geometry,
+    /// What is asked of the cells at them.
+    pub asked: Asked,
     /// Nodes in bent edges of a given mesh.
     pub given: GivenNodes,
     /// Edges longer than this many wanted lengths are bisected.
     pub longest: f64,
+    /// Edges that stay straight though their surfaces are curved, by their ends in ascending order.
+    pub straight: BTreeSet<[u32; 2]>,
     projections: Projections<'a>,
     measure: Measure,
     is_curved: Vec<bool>,
@@ -105,14 +112,16 @@ pub struct Improver<'a> {
 
 impl<'a> Improver<'a> {
     /// A mesh without cells.
-    pub fn new(sizes: &'a SizeField) -> Self {
+    pub fn new(sizes: &'a SizeField, asked: Asked) -> Self {
         let geometry = sizes.geometry();
         Self {
             mesh: Tetrahedra::new(geometry.periods),
             given: GivenNodes::default(),
             sizes,
             geometry,
+            asked,
             longest: f64::INFINITY,
+            straight: BTreeSet::new(),
             projections: Projections::new(geometry),
             measure: Measure::straight(Straight::VolumeLength),
             is_curved: geometry.surfaces.iter().map(|surface| !surface.is_flat()).collect(),
@@ -165,6 +174,9 @@ impl<'a> Improver<'a> {
     /// From the middle of an edge to the node in it (m), which is on the surfaces the edge is on.
     pub fn offset_of_node(&self, a: u32, b: u32) -> Point<3> {
         let straight = self.mesh.middle([a, b]);
+        if self.straight.contains(&[a.min(b), a.max(b)]) {
+            return Point::zeros();
+        }
         self.node_on(self.mesh.edge_surfaces(a, b), [a, b], straight) - straight
     }
 
@@ -214,7 +226,7 @@ impl<'a> Improver<'a> {
             }
         }
         let quality = match n_edges {
-            6 => return ALL_ON_WALLS * straight.min(1.0),
+            6 if self.asked.free_nodes => return ALL_ON_WALLS * straight.min(1.0),
             5 if self.measure.avoids_two_faces => TWO_FACES * straight.min(1.0),
             _ => straight,
         };

@@ -18,4 +18,4 @@ mod worst_cells;
 pub use given_nodes::GivenPart;
 pub use improver::Improver;
 pub use split::Split;
-pub use verdict::Verdict;
+pub use verdict::{LEAST_COEFFICIENT, Verdict};

@@ -36,17 +36,21 @@ impl Improver<'_> {
             self.swap_pass(0.85, 1.6);
             self.smooth_pass(false, 1.0);
         }
-        self.set_measure(Measure::curved(Straight::VolumeLength));
+        let is_bent = self.asked.bent_shapes;
+        self.set_measure(measure_of(is_bent, Straight::VolumeLength));
         for _ in 0..2 {
             self.split_pass(LONGEST);
             self.swap_pass(0.8, 1.7);
             self.smooth_pass(false, 1.0);
         }
-        self.set_measure(Measure::curved(Straight::Sine));
+        self.set_measure(measure_of(is_bent, Straight::Sine));
         self.cure_worst_cells(0..WORST_PASSES);
+        if !self.asked.free_nodes {
+            return;
+        }
         self.split_cells_with_two_faces();
         self.split_pass(LONGEST);
-        self.set_measure(Measure { avoids_two_faces: true, ..Measure::curved(Straight::Sine) });
+        self.set_measure(Measure { avoids_two_faces: true, ..measure_of(is_bent, Straight::Sine) });
         for _ in 0..LAST_ROUNDS {
             let n_split = self.split_faces_off_surface();
             self.cure_worst_cells(0..LAST_PASSES);
@@ -90,4 +94,9 @@ impl Improver<'_> {
             }
         }
     }
+}
+
+/// What cells are measured by, once their edges have their lengths.
+fn measure_of(is_curved: bool, straight: Straight) -> Measure {
+    if is_curved { Measure::curved(straight) } else { Measure::straight(straight) }
 }

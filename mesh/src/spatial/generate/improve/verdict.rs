@@ -14,7 +14,7 @@ const GOOD_ANGLE: f64 = 25.0;
 const LEAST_ANGLE: f64 = 12.0;
 
 /// Least Bezier coefficient of det J over the mean in a curved cell.
-const LEAST_COEFFICIENT: f64 = 0.1;
+pub const LEAST_COEFFICIENT: f64 = 0.1;
 
 /// Part of the quality of a given mesh that one made of it has at least.
 const AS_GIVEN: f64 = 0.9;
@@ -107,12 +107,12 @@ impl Verdict {
         for (edge, [i, j]) in EDGES.into_iter().enumerate() {
             let surfaces = improver.mesh.edge_surfaces(vertices[i], vertices[j]);
             n_edges += usize::from(!surfaces.is_empty());
-            if improver.has_curved(surfaces) {
+            if improver.asked.bent_edges && improver.has_curved(surfaces) {
                 offsets[edge] = improver.offset_of_node(vertices[i], vertices[j]);
                 is_curved = true;
             }
         }
-        if n_edges == 6 {
+        if n_edges == 6 && improver.asked.free_nodes {
             self.closed = Worst { value: self.closed.value - 1.0, at: center };
         }
         if is_curved {

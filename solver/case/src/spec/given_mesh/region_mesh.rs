@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use alewife_mesh::spatial::{Region, estimate_cells_inside, generate_inside};
+use alewife_mesh::spatial::{Purpose, Region, estimate_cells_inside, generate_inside};
 use alewife_mesh::{MeshError, Sizing};
 
 use super::contents::Contents;
@@ -105,7 +105,7 @@ impl RegionMesh {
         if n_cells > MOST_CELLS {
             return Err(self.too_many_cells());
         }
-        Ok(Contents::of_region(generate_inside(region, sizing).map_err(failed)?))
+        Ok(Contents::of_region(generate_inside(region, sizing, Purpose::Flow).map_err(failed)?))
     }
 
     fn too_many_cells(&self) -> RegionFault {
