@@ -16,6 +16,17 @@ use crate::structure::{Held, Load, Structure};
 const SOFT: f64 = 50.0;
 const ANGLE: f64 = 0.7;
 
+/// How the base of a rod in the plane is held.
+fn in_the_plane() -> EndPose {
+    EndPose { angle: ANGLE, ..EndPose::default() }
+}
+
+/// The same in space.
+fn in_space() -> SpatialEndPose {
+    let rotation = Rotation3::new(Vector3::new(0.3, -0.8, 0.5));
+    SpatialEndPose { rotation, ..SpatialEndPose::default() }
+}
+
 fn soft(elements: usize) -> RodProperties {
     RodProperties { stretching: SOFT, ..unit(elements) }
 }
@@ -32,17 +43,10 @@ impl Clamped {
         [Self::Planar(cantilever(soft(elements))), Self::Spatial(spatial)]
     }
 
-    fn pose(&self) -> (EndPose, SpatialEndPose) {
-        let rotation = Rotation3::new(Vector3::new(0.3, -0.8, 0.5));
-        let angle = EndPose { angle: ANGLE, ..EndPose::default() };
-        (angle, SpatialEndPose { rotation, ..SpatialEndPose::default() })
-    }
-
     fn direction(&self) -> Vector3<f64> {
-        let (planar, spatial) = self.pose();
         match self {
-            Self::Planar(_) => Vector3::new(planar.angle.cos(), planar.angle.sin(), 0.0),
-            Self::Spatial(_) => spatial.rotation * Vector3::x(),
+            Self::Planar(_) => Vector3::new(ANGLE.cos(), ANGLE.sin(), 0.0),
+            Self::Spatial(_) => in_space().rotation * Vector3::x(),
         }
     }
 
@@ -54,18 +58,16 @@ impl Clamped {
     }
 
     fn start(&self) -> DVector<f64> {
-        let (planar, spatial) = self.pose();
         match self {
-            Self::Planar(rod) => rod.straight(planar.place, planar.angle),
-            Self::Spatial(rod) => rod.straight(spatial.place, spatial.rotation),
+            Self::Planar(rod) => rod.straight(Vector2::zeros(), ANGLE),
+            Self::Spatial(rod) => rod.straight(Vector3::zeros(), in_space().rotation),
         }
     }
 
     fn held(&self) -> Vec<Held> {
-        let (planar, spatial) = self.pose();
         match self {
-            Self::Planar(rod) => rod.held(End::Base, Support::Clamped, &planar),
-            Self::Spatial(rod) => rod.held(End::Base, Support::Clamped, &spatial),
+            Self::Planar(rod) => rod.held(End::Base, Support::Clamped, &in_the_plane()),
+            Self::Spatial(rod) => rod.held(End::Base, Support::Clamped, &in_space()),
         }
     }
 
