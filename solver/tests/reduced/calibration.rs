@@ -195,7 +195,7 @@ fn bad_calibrations_are_refused_by_key_and_line() {
     let missing = refused(&["calibration.from.0.time=when"]);
     assert!(missing.contains("calibration.from.0") && missing.contains("`when`"), "{missing}");
     for (setting, key, message, help) in [
-        ("calibration.from.1.csv=nowhere.csv", "1.csv", "nowhere.csv: No such file", "a CSV file"),
+        ("calibration.from.1.csv=nowhere.csv", "1.csv", "is not in this folder", "a CSV file"),
         ("calibration.from.0.time=t", "0.time", "columns: t (s), head x (cm)", "name a column"),
         (
             "calibration.from.0.columns={ 'eel-1.x' = 'yaw' }",
