@@ -41,7 +41,10 @@ pub(super) fn inside_of_surface(
     let curved = solid.order == SolidOrder::Quadratic;
     let sizing = Sizing { gap_layers: LAYERS, curved, ..Sizing::graded(size, 0.5, size) };
     let of_mesh = |error: MeshError| {
-        let message = format!("the inside of the surface cannot be meshed: {error}");
+        // The remedy it ends in names keys of a flow
+        let told = error.to_string();
+        let reason = told.split("; lower ").next().unwrap_or_default();
+        let message = format!("the inside of the surface cannot be meshed: {reason}");
         let help = "take a smaller solid.0.size, or round edges that are too sharp";
         let rounded = region.angle_without_small_sheets(size).map_or_else(String::new, |angle| {
             format!("; smooth = {angle:?} rounds those of its smooth parts that are not larger than a few cells")
