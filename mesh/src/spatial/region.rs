@@ -281,30 +281,38 @@ fn sheets(mesh: &TriangleMesh, smooth: f64) -> Vec<usize> {
     (0..n).map(number).collect()
 }
 
-/// Joins sheets of a few triangles to what they turn least against, if by little more than a smooth wall does:
-/// coarse triangles at edges that fade out leave such.
+/// Joins sheets of a few triangles to a larger one that they turn against by little more than a smooth wall does:
+/// coarse triangles at edges that fade out leave such. Where there are only small ones, as on a polyhedron, they
+/// are its faces.
 fn join_splinters(mesh: &TriangleMesh, smooth: f64, groups: &mut Groups) {
-    let mut sizes: BTreeMap<usize, usize> = BTreeMap::new();
-    for triangle in 0..mesh.triangles.len() {
-        *sizes.entry(groups.root(triangle)).or_default() += 1;
-    }
-    let mut least: BTreeMap<usize, (f64, usize)> = BTreeMap::new();
-    for beside in edges_of(mesh).values() {
-        let [one, other] = beside[..] else { continue };
-        let angle = mesh.turn(one.triangle, other.triangle).to_degrees();
-        let pair = [one.triangle, other.triangle];
-        for (own, across) in [(pair[0], pair[1]), (pair[1], pair[0])] {
-            let root = groups.root(own);
-            let is_splinter = sizes[&root] <= SPLINTER && root != groups.root(across);
-            let most = (2.0 * smooth).min(MOST_FADED);
-            let known = least.get(&root).map_or(most, |known| known.0);
-            if is_splinter && angle < known {
-                least.insert(root, (angle, across));
+    let edges = edges_of(mesh);
+    let most = (2.0 * smooth).min(MOST_FADED);
+    loop {
+        let mut sizes: BTreeMap<usize, usize> = BTreeMap::new();
+        for triangle in 0..mesh.triangles.len() {
+            *sizes.entry(groups.root(triangle)).or_default() += 1;
+        }
+        let mut least: BTreeMap<usize, (f64, usize)> = BTreeMap::new();
+        for beside in edges.values() {
+            let [one, other] = beside[..] else { continue };
+            let angle = mesh.turn(one.triangle, other.triangle).to_degrees();
+            let pair = [one.triangle, other.triangle];
+            for (own, across) in [(pair[0], pair[1]), (pair[1], pair[0])] {
+                let root = groups.root(own);
+                let is_splinter =
+                    sizes[&root] <= SPLINTER && sizes[&groups.root(across)] > SPLINTER;
+                let known = least.get(&root).map_or(most, |known| known.0);
+                if is_splinter && angle < known {
+                    least.insert(root, (angle, across));
+                }
             }
         }
-    }
-    for (own, (_, across)) in least {
-        groups.join(own, across);
+        if least.is_empty() {
+            return;
+        }
+        for (own, (_, across)) in least {
+            groups.join(own, across);
+        }
     }
 }
 

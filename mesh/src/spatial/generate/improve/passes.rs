@@ -11,6 +11,10 @@ const COLLAPSE_LOSS: f64 = 0.6;
 /// Edges shorter than this many wanted lengths are not split for the curvature of the surface.
 const SHORT: f64 = 0.5;
 
+/// Most cells around a vertex that swaps are tried at: flat cells of a bad cut are swapped for more of them without
+/// end, and vertices of good meshes have a tenth of these.
+const MOST_AROUND: usize = 400;
+
 /// An edge with its length over that wanted.
 #[derive(Debug, Clone, Copy)]
 struct RatedEdge {
@@ -89,7 +93,9 @@ impl Improver<'_> {
             if interrupt::is_requested() {
                 break;
             }
-            if self.mesh.around(vertex).is_empty() || !self.mesh.has_changed_since(vertex, since) {
+            let n_around = self.mesh.around(vertex).len();
+            if !(1..=MOST_AROUND).contains(&n_around) || !self.mesh.has_changed_since(vertex, since)
+            {
                 continue;
             }
             n_swapped += self.swap_faces_at(vertex, since, poor, longest);
